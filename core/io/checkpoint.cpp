@@ -206,7 +206,7 @@ void write_contacts(h5::Group& group, const Configuration<Dim>& configuration) {
   write_rows<double>(group, "close_pairs", close_pairs);
 }
 
-/// What real numbers hold; anything in a damaged checkpoint of the layout without a checksum.
+/// The whole number that a real one holds. A damaged checkpoint of the layout without a checksum may hold any number.
 template <std::integral Integer>
 Integer stored_number(const fs::path& path, double x, Integer end) {
   const auto number = whole_number<Integer>(x);

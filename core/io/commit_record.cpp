@@ -1,5 +1,7 @@
 #include "core/io/commit_record.h"
 
+#include "core/io/word_checksum.h"
+
 namespace vitrel {
 namespace {
 
@@ -7,10 +9,10 @@ constexpr std::uint64_t mark_magic = std::uint64_t{0x76746d6b} << 32;
 constexpr std::uint64_t low_half = 0xffffffff;
 
 std::uint64_t checksum_of(const CommitRecord& record) {
-  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a over words
+  WordChecksum checksum;
   for (const std::uint64_t word : {record.begun, record.done, record.end, record.is_written})
-    hash = (hash ^ word) * 0x100000001b3u;
-  return hash;
+    checksum.add(word);
+  return checksum.value();
 }
 
 bool is_later_than(std::uint64_t commit, std::uint64_t mark) {

@@ -7,8 +7,9 @@
 
 namespace vitrel {
 
-/// The first bytes of a file that changes by commits (TransactionalFile), in a block that HDF5 leaves to its user. By it a
-/// reader knows which state of the file it sees, and that all it has read belongs to that state. Commits are counted from 1.
+/// A file that changes by commits (TransactionalFile) begins with this record, in a block that HDF5 leaves to its user.
+/// A reader compares it with the one it found before, and so knows that everything it has read belongs to the same
+/// commit. Commits are counted from 1.
 struct CommitRecord {
   std::array<char, 8> magic{'v', 't', 'r', 'l', 'c', 'm', 't', '1'};
   std::uint64_t begun = 0;       ///< the last commit that began to change earlier content
@@ -26,8 +27,9 @@ bool has_magic(const CommitRecord& record);
 bool is_whole(const CommitRecord& record);
 CommitRecord with_checksum(CommitRecord record);
 
-/// Before a commit changes anything it leaves a mark behind the end of the earlier content, too. Whoever reads a file from its
-/// first byte to its last, as one who copies it does, meets the mark after all that changes, and so learns of it.
+/// Before a commit changes anything, it also writes a mark behind the end of the earlier content. A program that copies
+/// the file from its first byte to its last reads the mark after everything that may have changed, so that the copy
+/// shows that it is torn.
 struct CommitMark {
   std::uint64_t place;  ///< in the file
   std::uint64_t end;    ///< the first byte after it
@@ -35,13 +37,13 @@ struct CommitMark {
 CommitMark mark_behind(std::uint64_t end);
 std::uint64_t mark_of(std::uint64_t commit);
 
-/// What a reader finds in a file, in this order.
+/// What a reader finds in a file. It reads the three in this order.
 struct FoundCommits {
   CommitRecord record;
   std::optional<std::uint64_t> journal;  ///< the commit whose journal the file ends with
   std::uint64_t mark;                    ///< what stands behind record.end
 };
-/// The commit whose state these are; 0 if the bytes of a reader may be of several.
+/// The commit that the content belongs to; 0 if it may belong to several.
 std::uint64_t state_of(const FoundCommits& found);
 
 }  // namespace vitrel

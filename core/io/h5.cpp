@@ -222,7 +222,7 @@ bool has_checksums(const Check& check, const Handle& creation) {
 
 }  // namespace
 
-/// HDF5 1.10 walks through the whole index for this, so only chunks that seem to be empty may ask.
+/// HDF5 1.10 searches the whole index for this, so it is asked only about chunks that seem to be empty.
 bool Dataset::has_chunk(const Check& check, const Shape& at) const {
   unsigned skipped = 0;
   haddr_t address = HADDR_UNDEF;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -18,7 +19,7 @@
 /// What is written reaches the file by `flush`, whole or not at all (see TransactionalFile): a
 /// killed process or a full disk leaves the file as it was at the last flush. After a failure
 /// nothing more is written, and later operations on that file throw again. A file may be read while another process
-/// writes it; each operation is of one state of it, or throws ChangedFile.
+/// writes it: every operation sees the content of the same commit, or throws ChangedFile.
 ///
 /// T is one of double, int32_t, int64_t, uint64_t, uint8_t; numbers are stored little-endian.
 namespace vitrel::h5 {
@@ -29,7 +30,7 @@ using Shape = std::vector<std::uint64_t>;
 class OpenFile;
 class Check;
 
-/// What was asked for belongs to a state of the file that another process has changed meanwhile (see File::reopen).
+/// Another process has changed the file since it was opened; File::reopen goes on to its present content.
 class ChangedFile : public FileError {
  public:
   using FileError::FileError;
@@ -170,6 +171,10 @@ class Group : public Object {
 
 enum class Access { read, write };
 
+/// How often reading begins again if another process changes the file meanwhile. Writers commit much less often than
+/// that takes.
+inline constexpr int max_readings = 50;
+
 class File {
  public:
   /// An empty file; one of the same name is replaced.
@@ -189,13 +194,25 @@ class File {
 
   /// Whether another process had the file open for writing when it was opened here.
   bool is_being_written() const;
-  /// Goes on to the present state of a file that is only read, by another process. Objects of it that were opened before
-  /// are of no use any more.
+  /// Goes on to the present content of a file that is open for reading. Objects opened before are of no use any more.
   void reopen();
 
  private:
   explicit File(std::shared_ptr<OpenFile> file) : file_(std::move(file)) {}
   std::shared_ptr<OpenFile> file_;
 };
+
+/// The result of `read`, which sees the content of one commit. If another process changes the file meanwhile, `forget`
+/// lets go of the objects that are open, and `read` begins again. Throws ChangedFile after max_readings.
+template <class Read, class Forget>
+std::invoke_result_t<Read> read_consistently(File& file, Read&& read, Forget&& forget) {
+  for (int reading = 1;; ++reading) try {
+      return read();
+    } catch (const ChangedFile&) {
+      if (reading == max_readings) throw;
+      forget();
+      file.reopen();
+    }
+}
 
 }  // namespace vitrel::h5

@@ -69,14 +69,14 @@ void OpenFile::create() {
   id_ = check(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation.id(), access().id()));
 }
 
-/// HDF5 may come too late for the state of the file that its first bytes were of.
+/// Another process may change the file before HDF5 has read what it needs.
 void OpenFile::open() {
   const unsigned flags = content_->writable() ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
-  for (;;) {
+  for (int reading = 1;; ++reading) {
     const Handle opening = access();
     id_ = H5Fopen(path_.c_str(), flags, opening.id());
     if (id_ >= 0) return;
-    if (!content_->has_changed()) fail("open the file", "");
+    if (!content_->has_changed() || reading == max_readings) fail("open the file", "");
     content_->refresh();
   }
 }
@@ -101,9 +101,9 @@ void OpenFile::prepare(std::string_view action, std::string_view object) const {
   if (!content_) throw_file_error(path_, action, object, "it is closed");
   if (content_->has_changed())
     throw ChangedFile(file_error_text(path_, action, object, content_->failure()));
-  if (!content_->failure().empty() && content_->writable())  // whatever was asked for since
-    throw_file_error(path_, "write", "", content_->failure());
-  if (!content_->failure().empty()) throw_file_error(path_, action, object, content_->failure());
+  if (content_->failure().empty()) return;
+  if (content_->writable()) throw_file_error(path_, "write", "", content_->failure());
+  throw_file_error(path_, action, object, content_->failure());
 }
 
 void OpenFile::fail(std::string_view action, std::string_view object) {

@@ -46,7 +46,7 @@ class OpenFile {
                          const std::string& reason);
 
   bool is_being_written() const { return content_ && content_->is_being_written(); }
-  /// Closes what is open of a file that is only read, and goes on to its present state.
+  /// Closes all objects of a file that is open for reading, and goes on to its present content.
   void reopen();
   void flush();
   void synchronize();

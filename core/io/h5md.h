@@ -60,9 +60,9 @@ template <int Dim>
 void write_state(const std::filesystem::path& path, const Configuration<Dim>& configuration,
                  const Provenance& provenance, bool overwrite = false);
 
-/// Writes a trajectory frame by frame. Frames reach the file whole or not at all, those of half a second of work together: a
-/// process killed at any moment, or a full disk, leaves the frames before the last commit. Other processes may read the file
-/// meanwhile. Throws FileError if the file cannot be written.
+/// Writes a trajectory frame by frame. `write` saves all frames that are not in the file yet if half a second has passed
+/// since it last did; they reach the file whole or not at all. A process killed at any moment, or a full disk, leaves the
+/// frames that were saved. Other processes may read the file meanwhile. Throws FileError if the file cannot be written.
 class TrajectoryWriter {
  public:
   /// A new file without frames; it appears under its name only when it is readable. `configuration`
@@ -158,8 +158,8 @@ class TrajectoryObserver : public Observer<Dim> {
 /// A frame is read into a configuration of the dimension of the file; `require_dimension` says so before any frame is asked
 /// for. Orientations in three dimensions must have the norm 1.
 ///
-/// A file may be read while another process adds frames to it: then the reader has the frames that were whole when it opened
-/// the file, and goes on to have them.
+/// A file may be read while another process adds frames to it. The reader then has the frames that were in the file when
+/// it was opened.
 ///
 /// Times must be finite, and the particles must fit into the box, soft ones with some overlap. FileError names the file, the
 /// dataset, and what would be right.
@@ -192,15 +192,14 @@ class TrajectoryReader {
   /// One value per frame.
   std::vector<double> observable(const std::string& name) const;
 
-  /// What became of a file of another program, or up to where one that is being written was read; otherwise empty.
+  /// What became of a file of another program, or up to which time a file that is being written was read; else empty.
   const ImportReport& import_report() const { return import_.report; }
-  /// False if times are steps, or frames, since the file states none.
-  bool knows_time() const { return import_.knows_time; }
-  /// Of a file of another program; none if it is in vitrel's own.
+  /// The units of a file of another program. Vitrel's own files are in reduced units and have none.
   const std::optional<FileUnits>& units() const { return import_.units; }
   /// Whether angles are known up to half turns only.
   bool angles_are_directors() const { return import_.angles_are_directors; }
-  /// To which some particle may have gone another way than its box crossings say, as nearest images do not tell; ascending.
+  /// The frames, in ascending order, to which some particle may have gone another way than its box crossings say. Only
+  /// nearest images leave such doubts.
   const std::vector<std::size_t>& doubtful_frames() const { return import_.doubtful_frames; }
   /// Why nothing can be said about motion; empty if it can.
   std::string obstacle_to_motion() const;
@@ -211,13 +210,9 @@ class TrajectoryReader {
 
  private:
   template <class Read>
-  std::invoke_result_t<Read> of_one_state(Read&& read) const;
+  std::invoke_result_t<Read> consistently(Read&& read) const;
   void read_what_frames_share();
   void report_progress();
-  template <int Dim>
-  void read_frame(std::uint64_t frame, Configuration<Dim>& configuration) const;
-  std::string obstacle() const;
-  bool has_series(const std::string& name) const;
   bool has_dataset(const std::string& name) const;
   const h5::Dataset& dataset(const std::string& name, const std::string& meaning) const;
   [[noreturn]] void fail(const std::string& what) const;
@@ -256,6 +251,7 @@ class TrajectoryReader {
   std::filesystem::path path_;
   mutable ImportedFile import_;
   mutable std::optional<h5::Group> root_;
+  mutable bool is_reading_ = false;
   static inline const std::string group_ = "particles/all";
   std::vector<double> times_;
   std::vector<std::int64_t> steps_;

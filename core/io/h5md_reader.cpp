@@ -20,23 +20,31 @@ namespace fs = std::filesystem;
 
 TrajectoryReader::TrajectoryReader(const fs::path& path, const KnownSystem& known)
     : path_(path), import_(open_as_h5md(path, known)) {
-  of_one_state([this] { read_what_frames_share(); });
+  consistently([this] { read_what_frames_share(); });
   if (import_.file.is_being_written()) report_progress();
 }
 
-/// The result of `read`, again if another process changed the file meanwhile. Writers commit much less often than reading takes.
+/// The result of `read`, which sees the content of one commit (h5::read_consistently). Within another such reading it is
+/// a part of that one, which begins again as a whole.
 template <class Read>
-std::invoke_result_t<Read> TrajectoryReader::of_one_state(Read&& read) const {
-  constexpr int attempts = 50;
-  for (int attempt = 1;; ++attempt) try {
-      if (!root_) root_ = import_.file.root();
-      return read();
-    } catch (const h5::ChangedFile&) {
-      if (attempt == attempts) throw;
-      datasets_.clear();
-      root_.reset();
-      import_.file.reopen();
-    }
+std::invoke_result_t<Read> TrajectoryReader::consistently(Read&& read) const {
+  if (is_reading_) return read();
+  struct Reading {
+    bool& is_reading;
+    explicit Reading(bool& flag) : is_reading(flag) { is_reading = true; }
+    ~Reading() { is_reading = false; }
+  };
+  const Reading reading(is_reading_);
+  return h5::read_consistently(
+      import_.file,
+      [&] {
+        if (!root_) root_ = import_.file.root();
+        return read();
+      },
+      [this] {
+        datasets_.clear();
+        root_.reset();
+      });
 }
 
 void TrajectoryReader::read_what_frames_share() {
@@ -183,21 +191,18 @@ Configuration<Dim> TrajectoryReader::read(std::uint64_t frame) const {
 template <int Dim>
 void TrajectoryReader::read(std::uint64_t frame, Configuration<Dim>& configuration) const {
   require_dimension(Dim);
-  of_one_state([&] { read_frame(frame, configuration); });
-}
-
-template <int Dim>
-void TrajectoryReader::read_frame(std::uint64_t frame, Configuration<Dim>& configuration) const {
   if (frame >= frames())
     fail("there is no frame " + std::to_string(frame) + ": it has " + std::to_string(frames()) +
          ", counted from 0");
-  configuration = std::get<Configuration<Dim>>(fixed_);
-  configuration.time = times_[frame];
-  read_box(frame, configuration);
-  read_positions(frame, configuration);
-  read_orientations(frame, configuration);
-  read_velocities(frame, configuration);
-  read_close_pairs(frame, configuration);
+  consistently([&] {
+    configuration = std::get<Configuration<Dim>>(fixed_);
+    configuration.time = times_[frame];
+    read_box(frame, configuration);
+    read_positions(frame, configuration);
+    read_orientations(frame, configuration);
+    read_velocities(frame, configuration);
+    read_close_pairs(frame, configuration);
+  });
 }
 
 bool TrajectoryReader::has_dataset(const std::string& name) const {
@@ -295,7 +300,7 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
                                       Configuration<Dim>& configuration) const {
   const std::vector<double> positions = frame_values("position", "the coordinates", frame, 3);
   std::vector<double> images(particles() * Dim);
-  if (has_series("image")) images = frame_values("image", "the box crossings", frame, Dim);
+  if (has("image")) images = frame_values("image", "the box crossings", frame, Dim);
   if (std::ranges::any_of(images, [](double n) { return std::abs(n) > max_box_crossings; }))
     fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
          std::to_string(frame));
@@ -312,12 +317,12 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
 /// Round particles need no orientations.
 template <int Dim>
 bool TrajectoryReader::has_no_orientations(const Configuration<Dim>& configuration) const {
-  return !has_series("angle") && !has_series("orientation") && rotor_count(configuration) == 0;
+  return !has("angle") && !has("orientation") && rotor_count(configuration) == 0;
 }
 
 void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration2& configuration) const {
   if (has_no_orientations(configuration)) return;
-  if (has_series("angle") || !has_series("orientation")) {
+  if (has("angle") || !has("orientation")) {
     configuration.angle = frame_values("angle", "the angle of every particle in radians", frame, 1);
     return;
   }
@@ -347,11 +352,11 @@ void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration3& co
 template <int Dim>
 void TrajectoryReader::read_velocities(std::uint64_t frame,
                                        Configuration<Dim>& configuration) const {
-  if (has_series("velocity")) {
+  if (has("velocity")) {
     const std::vector<double> v = frame_values("velocity", "the velocities", frame, Dim);
     for (std::size_t i = 0; i < particles(); ++i) configuration.velocity[i] = Vec<Dim>(&v[Dim * i]);
   }
-  if (!has_series("angular_velocity")) return;
+  if (!has("angular_velocity")) return;
   const std::vector<double> w =
       frame_values("angular_velocity", "the angular velocities", frame, 3);
   for (std::size_t i = 0; i < particles(); ++i) {
@@ -403,11 +408,7 @@ void TrajectoryReader::read_close_pairs(std::uint64_t frame,
 }
 
 bool TrajectoryReader::has(const std::string& name) const {
-  return of_one_state([&] { return has_series(name); });
-}
-
-bool TrajectoryReader::has_series(const std::string& name) const {
-  return has_dataset(group_ + '/' + name + "/value");
+  return consistently([&] { return has_dataset(group_ + '/' + name + "/value"); });
 }
 
 /// The first frame whose box is not that of frame 0, or the number of frames.
@@ -424,12 +425,8 @@ std::uint64_t TrajectoryReader::first_other_box() const {
 }
 
 std::string TrajectoryReader::obstacle_to_motion() const {
-  return of_one_state([this] { return obstacle(); });
-}
-
-std::string TrajectoryReader::obstacle() const {
   if (frames() < 2) return "a single frame";
-  if (!has_series("image"))
+  if (!has("image"))
     return fmt::format(
         "box crossings are unknown: it has no {}; if no particle moves by more than half a box "
         "length between frames, import.unwrap = \"nearest\" counts them",
@@ -439,13 +436,13 @@ std::string TrajectoryReader::obstacle() const {
       return fmt::format(
           "frame {} has the time {}, which is not above that of the frame before, {}", k, times_[k],
           times_[k - 1]);
-  if (const std::uint64_t frame = first_other_box(); frame < frames())
+  if (const auto frame = consistently([this] { return first_other_box(); }); frame < frames())
     return fmt::format("the box of frame {} differs from that of the first", frame);
   return "";
 }
 
 std::vector<std::string> TrajectoryReader::observable_names() const {
-  return of_one_state([this] {
+  return consistently([this] {
     return root_->has_group("observables") ? root_->group("observables").members()
                                            : std::vector<std::string>();
   });
@@ -457,7 +454,7 @@ bool TrajectoryReader::has_observable(const std::string& name) const {
 }
 
 std::vector<double> TrajectoryReader::observable(const std::string& name) const {
-  return of_one_state([&] {
+  return consistently([&] {
     const h5::Dataset& values = dataset("observables/" + name + "/value", "one number per frame");
     std::vector<double> numbers = values.read<double>();
     if (values.shape().size() != 1 || numbers.size() < frames())
@@ -469,7 +466,7 @@ std::vector<double> TrajectoryReader::observable(const std::string& name) const 
 }
 
 Provenance TrajectoryReader::provenance() const {
-  return of_one_state([this] {
+  return consistently([this] {
     return root_->has_group("parameters") ? read_provenance(root_->group("parameters"))
                                           : Provenance();
   });

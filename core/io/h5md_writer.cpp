@@ -272,7 +272,7 @@ void TrajectoryWriter::write(const Configuration<Dim>& configuration, std::int64
   for (const auto& [name, value] : observables)
     observables_.at(name).template write_frame<double>(frames_, {&value, 1});
   ++frames_;
-  // Seldom enough to read the file between two commits, and to cost nothing.
+  // A reader needs time between two commits, and a commit for every frame would cost more than writing it.
   constexpr std::chrono::milliseconds interval(500);
   if (std::chrono::steady_clock::now() - last_commit_ >= interval) commit();
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/io/word_checksum.h"
 
 namespace vitrel {
 namespace {
@@ -29,18 +30,17 @@ struct Trailer {
 };
 constexpr std::array<char, 8> journal_magic{'v', 't', 'r', 'l', 'j', 'r', 'n', '1'};
 
-/// FNV-1a over 64-bit words; journals are whole words.
-std::uint64_t checksum(std::span<const std::byte> journal, const Trailer& trailer) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  const auto add = [&hash](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3u; };
+/// A journal consists of whole words.
+std::uint64_t checksum_of(std::span<const std::byte> journal, const Trailer& trailer) {
+  WordChecksum checksum;
   for (std::size_t k = 0; k + 8 <= journal.size(); k += 8) {
     std::uint64_t word;
     std::memcpy(&word, journal.data() + k, 8);
-    add(word);
+    checksum.add(word);
   }
-  add(trailer.begin);
-  add(trailer.size);
-  return hash;
+  checksum.add(trailer.begin);
+  checksum.add(trailer.size);
+  return checksum.value();
 }
 
 std::string system_message() {
@@ -67,8 +67,8 @@ bool locking_is_off() {
   return setting && std::string(setting) == "FALSE";
 }
 
-/// Whether `succeeds` becomes true within the few calls of the system that another process is between.
-bool again_and_again(const std::function<bool()>& succeeds) {
+/// Tries again for a few milliseconds: another process may be between two of its system calls.
+bool succeeds_soon(const std::function<bool()>& succeeds) {
   constexpr int attempts = 10;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (succeeds()) return true;
@@ -121,9 +121,9 @@ bool TransactionalFile::try_lock(int kind) {
   return locking_is_off() || ::flock(descriptor_, kind | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
-/// Readers have a lock for a moment, to see whether anybody writes.
+/// A reader holds the lock for a moment only, to find out whether another process writes.
 void TransactionalFile::lock_for_writing() {
-  if (!again_and_again([this] { return try_lock(LOCK_EX); })) fail(path_, opening(mode_), in_use);
+  if (!succeeds_soon([this] { return try_lock(LOCK_EX); })) fail(path_, opening(mode_), in_use);
 }
 
 void TransactionalFile::lock_for_reading() {
@@ -134,7 +134,7 @@ void TransactionalFile::lock_for_reading() {
     is_being_written_ = !try_lock(LOCK_SH);
     return !is_being_written_ || (has_commits && record.is_written);
   };
-  if (!again_and_again(is_readable)) fail(path_, opening(mode_), in_use);
+  if (!succeeds_soon(is_readable)) fail(path_, opening(mode_), in_use);
   if (has_commits)
     static_cast<void>(::flock(descriptor_, LOCK_UN));  // it ends with the reader anyway
 }
@@ -184,11 +184,7 @@ TransactionalFile::Page& TransactionalFile::page(std::uint64_t index) {
 
 bool TransactionalFile::read(std::uint64_t offset, std::span<std::byte> bytes) {
   if (!read_file(offset, bytes)) return false;
-  if (!writable() && record_ && !is_still_there()) {
-    has_changed_ = true;
-    failure_ = "another process changed the file meanwhile";
-    return false;
-  }
+  if (!writable() && record_ && !is_unchanged()) return false;
   if (bytes.empty()) return true;
   const std::uint64_t end = offset + bytes.size();
   const auto last = pages_.upper_bound((end - 1) / page_size);
@@ -225,7 +221,8 @@ void TransactionalFile::resize(std::uint64_t size) {
 }
 
 void TransactionalFile::commit() {
-  if (failure_.empty() && !is_dirty_) return;
+  if (!failure_.empty()) fail(path_, "write", failure_);
+  if (!is_dirty_) return;
   if (record_) prepare_record();
   if (!failure_.empty() || !set_file_size(std::max(size_, committed_)) || !append_journal())
     fail(path_, "write", failure_);
@@ -236,7 +233,7 @@ void TransactionalFile::commit() {
   is_dirty_ = false;
 }
 
-/// The journal has the record and the mark, too.
+/// The record and the mark are part of the journal.
 void TransactionalFile::prepare_record() {
   ++record_->begun;
   size_ = std::max(size_, free_from());
@@ -263,7 +260,7 @@ bool TransactionalFile::append_journal() {
     std::memcpy(out + 8, content.data(), page_size);
     out += 8 + page_size;
   }
-  trailer.checksum = checksum(std::span(journal).first(out - journal.data()), trailer);
+  trailer.checksum = checksum_of(std::span(journal).first(out - journal.data()), trailer);
   std::memcpy(out, &trailer, sizeof(Trailer));
   return write_file(trailer.begin, journal);
 }
@@ -321,9 +318,9 @@ void TransactionalFile::refresh() {
   take_state();
 }
 
-/// A commit that is under way ends soon, or leaves a journal.
+/// A commit that is under way ends soon or leaves a journal.
 void TransactionalFile::take_state() {
-  const bool has_state = again_and_again([this] {
+  const bool has_state = succeeds_soon([this] {
     state_ = look_for_state();
     return state_ > 0;
   });
@@ -335,7 +332,7 @@ void TransactionalFile::take_state() {
                             : "its first bytes are damaged; restore it from a copy");
 }
 
-/// The number of the commit, or any above 0 in a file that does not count them; 0 if what was found is of several.
+/// Returns the number of the commit; 0 if the content may belong to several; 1 for a file that does not count commits.
 std::uint64_t TransactionalFile::look_for_state() {
   pages_.clear();
   FoundCommits found{stored_record(), {}, 0};
@@ -355,7 +352,7 @@ std::uint64_t TransactionalFile::look_for_state() {
   if (mark.end <= found_size)
     read_file(mark.place, std::as_writable_bytes(std::span(&found.mark, 1)));
   const std::uint64_t state = state_of(found);
-  if (found.journal != state) {  // that of a commit that did not begin
+  if (found.journal != state) {  // its commit did not begin
     pages_.clear();
     size_ = found_size;
   }
@@ -375,9 +372,14 @@ CommitRecord TransactionalFile::stored_record() {
   return record;
 }
 
-bool TransactionalFile::is_still_there() {
-  const CommitRecord now = stored_record();
-  return now == *record_ || (is_whole(now) && now.begun == state_);
+/// HDF5 calls this, so it must not throw.
+bool TransactionalFile::is_unchanged() {
+  CommitRecord now;
+  if (!read_file(0, std::as_writable_bytes(std::span(&now, 1)))) return false;
+  if (now == *record_ || (is_whole(now) && now.begun == state_)) return true;
+  has_changed_ = true;
+  failure_ = "another process changed the file meanwhile";
+  return false;
 }
 
 bool TransactionalFile::load_journal() {
@@ -389,7 +391,7 @@ bool TransactionalFile::load_journal() {
   if (trailer.magic != journal_magic || trailer.begin >= end) return false;
   std::vector<std::byte> journal(end - trailer.begin);
   read_file(trailer.begin, journal);
-  if (checksum(journal, trailer) != trailer.checksum) return false;
+  if (checksum_of(journal, trailer) != trailer.checksum) return false;
   for (std::size_t at = 0; at + 8 + page_size <= journal.size(); at += 8 + page_size) {
     std::uint64_t index;
     std::memcpy(&index, &journal[at], 8);

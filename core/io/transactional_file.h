@@ -29,10 +29,12 @@ namespace vitrel {
 /// (in memory only, if it is opened for reading). The journal is part of the file, so that a copy
 /// has it too.
 ///
-/// Files may be read while another process writes them: a reader sees the state of one commit, and after each access
-/// compares the record with that state. Bytes of a later one fail (`has_changed`); `refresh` goes on to that state. A copy
-/// that was made during commits, and so has pages of several states, is refused. Files without a record (of other programs, and
-/// of vitrel up to 0.2) can be read only while nobody writes them.
+/// A file may be read while another process writes it. A reader sees the content of one commit: after every access it
+/// compares the record, and reading fails if a later commit has begun (`has_changed`) until `refresh` goes on to that
+/// one. A copy that was made during a commit and mixes its pages with earlier ones is refused. Both rely on readers
+/// seeing writes in the order in which they were made, as processes of one machine do; machines that share a folder by
+/// NFS need not. A file without a record, of another program or of vitrel up to 0.2, can be read only while no process
+/// writes it.
 ///
 /// Writing never fails towards the caller: the first failure is noted, everything after it is kept
 /// in memory, and `commit` reports it. One process at a time may write, by an advisory lock; where
@@ -99,7 +101,7 @@ class TransactionalFile {
   void prepare_record();
   bool write_record();
   bool begin_changes();
-  bool is_still_there();
+  bool is_unchanged();
 
   std::filesystem::path path_;
   Mode mode_;

@@ -440,7 +440,7 @@ TEST_F(Import, TimesAndLengthsOfTheUser) {
       dump_frame(10, "x y z radius vx vy vz", "0 1 3 1 4 0 0\n3 3 9 1 0 0 0\n");
   const TrajectoryReader reader(text("a.dump", dump), known);
   const Configuration3 state = reader.read<3>(0);
-  EXPECT_TRUE(reader.knows_time());
+  EXPECT_EQ(reader.units()->time, "(unit of time)");
   EXPECT_EQ(state.time, 5);
   EXPECT_EQ(state.box.lengths(), Vec3(5, 5, 5));
   EXPECT_EQ(state.shape[0].semi_axes, Vec3(0.5, 0.5, 0.5));
@@ -507,7 +507,7 @@ TEST_F(Import, RepeatedFramesLeaveOutMotionOnly) {
   const std::string dump = dump_frame(3, "x y z ix iy iz radius", "0 1 3 0 0 0 1\n3 3 9 0 0 0 1\n");
   const TrajectoryReader reader(text("a.dump", dump + dump));
   EXPECT_EQ(reader.frames(), 2u);
-  EXPECT_FALSE(reader.knows_time());
+  EXPECT_EQ(reader.units()->time, "steps");
   EXPECT_THAT(reader.obstacle_to_motion(), HasSubstr("frame 1 has the time 3"));
 }
 

@@ -21,7 +21,7 @@
 /// killed, or the disk is full from then on. At two of them it stops until it is told to go on.
 namespace {
 
-enum class Fault { none, kill, full_disk, stop };
+enum class Fault { none, kill, full_disk, stop, unreadable };
 Fault fault = Fault::none;
 long calls_before_fault = 0;
 long calls_between_stops = 0;
@@ -57,6 +57,15 @@ extern "C" ssize_t pwrite(int descriptor, const void* data, size_t size, off_t o
 extern "C" int ftruncate(int descriptor, off_t size) noexcept {
   if (fault != Fault::full_disk && fault_strikes()) _exit(9);
   return static_cast<int>(syscall(SYS_ftruncate, descriptor, size));
+}
+
+// NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name)
+extern "C" ssize_t pread(int descriptor, void* data, size_t size, off_t offset) {
+  if (fault == Fault::unreadable && calls_before_fault-- <= 0) {
+    errno = EIO;
+    return -1;
+  }
+  return syscall(SYS_pread64, descriptor, data, size, offset);
 }
 
 namespace vitrel {
@@ -299,6 +308,28 @@ TEST_F(TrajectoryBeingWritten, ASlowCopyHasFramesOfOneCommitOrIsRefused) {
   }
   EXPECT_GT(whole, 100);
   EXPECT_GT(refused, 100);
+}
+
+// HDF5 calls the function that reads, and would not survive an exception.
+TEST_F(InterruptedTrajectory, ADiskThatCannotBeReadIsOneMessage) {
+  long call = 0;
+  for (bool fails = true; fails; ++call) {
+    fault = Fault::unreadable;
+    calls_before_fault = call;
+    std::string message;
+    try {
+      TrajectoryReader(file("start.h5")).read(first);
+      fails = false;
+    } catch (const FileError& error) {
+      message = error.what();
+    }
+    fault = Fault::none;
+    EXPECT_EQ(fails, message.find("start.h5: cannot ") != std::string::npos &&
+                         message.find("Input/output error") != std::string::npos)
+        << "call " << call << ": " << message;
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(call, 20);
 }
 
 TEST_F(Interrupted, ANewFileIsThereWholeOrNotAtAll) {

@@ -29,7 +29,7 @@ Page page_of_sweep(const std::filesystem::path& folder, const AnalysisChoice& ch
 
 Page page_of_state(const std::filesystem::path& file, const AnalysisChoice& choice) {
   const KnownSystem known = known_system(choice);
-  if (choice.given() && TrajectoryReader(file, known).import_report().empty())
+  if (choice.given() && !TrajectoryReader(file, known).units())
     throw UserError(file.string() +
                     ": is a single state, whose page holds no analysis; leave out --params and "
                     "--set");

@@ -313,7 +313,6 @@ ImportedFile convert(const fs::path& path, OpenFrames& open, const KnownSystem& 
   return {h5::File::open(copy.name(), h5::Access::read),
           conversion.report(),
           open.format.words.box_crossings,
-          conversion.knows_time(),
           known.import.angles == ImportOptions::Angles::directors,
           conversion.doubtful_frames(),
           std::move(units)};
@@ -323,11 +322,9 @@ ImportedFile convert(const fs::path& path, OpenFrames& open, const KnownSystem& 
 std::optional<h5::File> own_file(const fs::path& path, const ImportOptions& options) {
   if (&format_of(path, options) != &h5md_format) return std::nullopt;
   h5::File file = h5::File::open(path, h5::Access::read);
-  for (;;) try {
-      return is_own(file.root()) ? std::optional(std::move(file)) : std::nullopt;
-    } catch (const h5::ChangedFile&) {  // another process writes it
-      file.reopen();
-    }
+  const bool is_own_file = h5::read_consistently(
+      file, [&] { return is_own(file.root()); }, [] {});
+  return is_own_file ? std::optional(std::move(file)) : std::nullopt;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ class ForeignFrames {
   virtual ~ForeignFrames() = default;
   /// False after the last. FileError, which names the place, if the file is damaged.
   virtual bool next(ForeignFrame& frame) = 0;
-  /// That the file states, known once a frame was read.
+  /// The units that the file states; complete once a frame was read.
   virtual FileUnits units() const { return {}; }
 };
 

@@ -19,7 +19,7 @@ class NearestImages {
 
   /// A sentence on the longest step.
   std::string remark() const;
-  /// To which some particle went so far that it may have gone another way; ascending.
+  /// The frames, in ascending order, to which some particle went so far that it may have gone another way.
   const std::vector<std::size_t>& doubtful_frames() const { return doubtful_; }
 
  private:
