@@ -27,7 +27,7 @@ class Trajectory {
   virtual const Configuration<Dim>& read(std::size_t k) = 0;
   /// Angles in the plane are known up to multiples of this, 2π, or π for directors; 0: whole turns are counted.
   virtual double turn_period() const { return 0; }
-  /// To which some particle may have gone another way than its box crossings say; ascending.
+  /// The frames, in ascending order, to which some particle may have gone another way than its box crossings say.
   virtual std::vector<std::size_t> doubtful_frames() const { return {}; }
   std::size_t frames() const { return times().size(); }
 };

@@ -67,8 +67,9 @@ struct Lag {
 /// and a second for the pairs.
 std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions& options = {});
 
-/// The same for the motion of particles: if the run is not evenly sampled, without the pairs between which one of the
-/// doubtful frames was reached, and so without the lags of which no pair is left. (Of evenly sampled runs all intervals are alike.)
+/// The lags at which the motion of particles can be evaluated. If the run is not evenly sampled, pairs of frames with a
+/// doubtful frame between them, or at their end, are left out, and so are lags without a pair. An evenly sampled run
+/// keeps all, because its intervals are alike.
 template <int Dim>
 std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
                                      const TimeAxisOptions& options = {});

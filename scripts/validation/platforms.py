@@ -154,12 +154,12 @@ mount -t tmpfs tmpfs /dev/shm
 
     def compare(self):
         """All results of scripts/checksums with those of the reference, which are kept."""
-        self.must("checksums", f"scripts/checksums build/release/app/vitrel --save /root/{self.saved.name} -j 2")
+        self.must("checksums", f"scripts/checksums build/release/app/vitrel --save ../{self.saved.name} -j 2")
         kept = reference(self.sources)
         if self.name == REFERENCE:
             shutil.copy(self.saved, kept)
         shutil.copy(kept, self.root / "root/reference.npz")
-        command = f"scripts/checksums /root/{self.saved.name} --against /root/reference.npz"
+        command = f"scripts/checksums ../{self.saved.name} --against ../reference.npz"
         exact, _ = self.step("comparison of bits", command)
         within, code = self.step("comparison", f"{command} --tables-within {TABLES_WITHIN}")
         expect(code in (0, 1), f"comparison: exit code {code}\n{last_lines(within)}")

@@ -30,8 +30,9 @@ print(json.dumps({"version": vitrel.version, "commit": vitrel.commit,
                   "pressures": table["compressibility_factor"].value.tolist()}))
 """
 FILES = """
-import importlib.metadata
-print(*(file.locate() for file in importlib.metadata.files("vitrel") if "__pycache__" not in str(file)), sep="\\n")
+import importlib.metadata, os.path, sys
+files = [file.locate() for file in importlib.metadata.files("vitrel") if "__pycache__" not in str(file)]
+print(*(os.path.relpath(file, sys.prefix) for file in files), sep="\\n")
 """
 
 
@@ -58,8 +59,7 @@ def work_in_environment(root, name):
 
 def files_of(root, name):
     """The files of the distribution, relative to the virtual environment."""
-    lines = inside(root, f"{name}/bin/python3 -c {shlex.quote(FILES)}").splitlines()
-    return sorted(os.path.relpath(line, f"/root/{name}") for line in lines)
+    return sorted(inside(root, f"{name}/bin/python3 -c {shlex.quote(FILES)}").splitlines())
 
 
 def check_places(files, version):
@@ -113,7 +113,7 @@ def check(root, commit):
     dependencies = timed(inside, root, "vitrel/scripts/install_dependencies build python wheel")
     load = os.getloadavg()[0]
     seconds = timed(install_in_environment, root, "checkout", "./vitrel")
-    inside(root, "cd vitrel && python3 -m build --sdist --no-isolation --outdir /root/dist")
+    inside(root, "cd vitrel && python3 -m build --sdist --no-isolation --outdir ../dist")
     install_in_environment(root, "unpacked", "dist/vitrel-*.tar.gz")
 
     found = {name: work_in_environment(root, name) for name in ("checkout", "unpacked")}

@@ -808,7 +808,7 @@ TEST_F(CheckpointFile, OfThreeDimensionsComesBackBitByBit) {
                    random_solids(9, 1));
 }
 
-// Of version 0.1, whose checkpoints have no checksum.
+// Checkpoints of version 0.1 have no checksum.
 TEST_F(CheckpointFile, ContactsOfParticlesThatAreNotThereAreDamage) {
   Checkpoint checkpoint;
   checkpoint.configuration = with_close_pairs(random_configuration(9, 1), 2);

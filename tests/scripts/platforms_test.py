@@ -18,7 +18,7 @@ core/a.cpp:3:5: warning: unused variable 'x' [-Wunused-variable]
 clang: warning: argument unused during compilation: '--param'
 1 warning generated.
 """
-TESTS = """Test project /root/build
+TESTS = """Test project build
 50% tests passed, 2 tests failed out of 4
 
 The following tests did not run:

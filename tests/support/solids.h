@@ -16,7 +16,7 @@ inline Vec3 random_direction(Stream& draw) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-/// Of every direction, with a length uniform from `low` to `high`.
+/// A vector of random direction whose length is uniform between `low` and `high`.
 inline Vec3 random_vector(Stream& draw, double low, double high) {
   const double length = draw.uniform(low, high);
   return length * random_direction(draw);

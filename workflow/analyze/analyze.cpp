@@ -76,7 +76,7 @@ void require_own_names(const TrajectoryReader& reader) {
                                 conflict->species, conflict->complaint));
 }
 
-/// A director has no correlations of odd orders, which change their sign with its own.
+/// Correlations of odd order change their sign with the director, whose sign means nothing.
 void require_orders_of_directors(const TrajectoryReader& reader,
                                  const DisplacementOptions& analysis) {
   if (!reader.angles_are_directors()) return;
@@ -316,7 +316,7 @@ std::filesystem::path csv_file(const std::filesystem::path& results, const std::
   return csv_folder(results) / (table + ".csv");
 }
 
-/// Files of other programs have units of their own.
+/// Names the units of a file of another program in the columns of its tables.
 void put_into_units(Results& results, const FileUnits& units) {
   const auto put = [](std::string& unit, const std::string& quantity, const std::string& name) {
     if (const std::size_t place = unit.find(quantity); place != std::string::npos)

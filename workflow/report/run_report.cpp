@@ -70,7 +70,7 @@ std::vector<std::size_t> movie_room(std::size_t runs) {
   return room;
 }
 
-/// Of wall time, over the whole run; NaN if not recorded, as of a run in progress.
+/// The number of collisions per second of wall time; NaN if the file does not record the time, as in a run in progress.
 double collisions_per_second(const TrajectoryReader& reader) {
   const double seconds = reader.provenance().wall_seconds;
   if (!(seconds > 0) || !reader.import_report().empty() || !reader.has_observable("collisions"))
