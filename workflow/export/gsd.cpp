@@ -6,11 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
+#include <optional>
 #include <tuple>
 
-#include "core/error.h"
 #include "core/io/provenance.h"
 #include "core/state/in_space.h"
 
@@ -19,9 +17,6 @@ namespace {
 
 constexpr std::uint32_t hoomd_schema = (1u << 16) + 4;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-/// The particles of one species and shape: its semi-axes; 0 if they are round and their diameters differ.
-using Type = std::tuple<std::int32_t, double, double, double>;
 
 float rounded_up(double x) {
   const auto result = static_cast<float>(x);
@@ -72,47 +67,31 @@ Quaternion momentum_quaternion(const Configuration3& configuration, std::size_t 
   return q * twice;
 }
 
+/// The shape of all particles of a species; none if they differ, or if there are no particles.
+using CommonShape = std::optional<Vec3>;
+
 template <int Dim>
-std::string shape_text(const Type& type) {
-  const auto& [species, a, b, c] = type;
-  if (a == 0) return "{}";
+std::string shape_text(const CommonShape& axes) {
+  if (!axes) return "{}";
+  const auto [a, b, c] = std::tuple(axes->x(), axes->y(), axes->z());
   return Dim == 3 && a == b && b == c
              ? fmt::format(R"({{"type":"Sphere","diameter":{}}})", 2 * a)
              : fmt::format(R"({{"type":"Ellipsoid","a":{},"b":{},"c":{}}})", a, b, c);
 }
 
-/// Whether the particles of a species are round and of several sizes.
 template <int Dim>
-std::vector<bool> have_diameters(const Configuration<Dim>& configuration) {
-  std::vector<std::set<double>> sizes(configuration.species_names.size());
-  std::vector<bool> result(sizes.size(), true);
+std::vector<CommonShape> shapes_of_species(const Configuration<Dim>& configuration) {
+  std::vector<CommonShape> shapes(configuration.species_names.size());
+  std::vector<bool> differ(shapes.size());
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const auto k = static_cast<std::size_t>(configuration.species[i]);
-    sizes[k].insert(semi_axes_in_space(configuration.shape[i])[0]);
-    result[k] = result[k] && configuration.shape[i].is_round();
+    const Vec3 axes = semi_axes_in_space(configuration.shape[i]);
+    differ[k] = differ[k] || (shapes[k] && *shapes[k] != axes);
+    shapes[k] = axes;
   }
-  for (std::size_t k = 0; k < sizes.size(); ++k) result[k] = result[k] && sizes[k].size() > 1;
-  return result;
-}
-
-/// The name of the species, with a number if it has several types; no name comes twice.
-std::vector<std::string> names_of(const std::vector<Type>& types,
-                                  const std::vector<std::string>& species) {
-  std::vector<int> count(species.size()), number(species.size());
-  for (const Type& type : types) ++count[std::get<0>(type)];
-  std::set<std::string> taken(species.begin(), species.end());
-  std::vector<std::string> names;
-  for (const Type& type : types) {
-    const auto k = static_cast<std::size_t>(std::get<0>(type));
-    std::string name = species[k];
-    if (count[k] > 1) {
-      do {
-        name = fmt::format("{}#{}", species[k], ++number[k]);
-      } while (!taken.insert(name).second);
-    }
-    names.push_back(name);
-  }
-  return names;
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    if (differ[k]) shapes[k].reset();
+  return shapes;
 }
 
 }  // namespace
@@ -167,33 +146,34 @@ void GsdSink<Dim>::write_fixed(const Configuration<Dim>& configuration) {
 
 template <int Dim>
 void GsdSink<Dim>::write_types(const Configuration<Dim>& configuration) {
-  std::map<Type, std::uint32_t> number;
-  std::vector<Type> types;
-  std::vector<std::uint32_t> type_ids;
+  const std::vector<CommonShape> common = shapes_of_species(configuration);
+  std::vector<std::string> shapes;
+  for (const CommonShape& shape : common) shapes.push_back(shape_text<Dim>(shape));
+  write_texts("particles/types", configuration.species_names);
+  file_.write<std::uint32_t>(
+      "particles/typeid",
+      std::vector<std::uint32_t>(configuration.species.begin(), configuration.species.end()));
+  write_texts("particles/type_shapes", shapes);
+  write_own_shapes(configuration, common);
+}
+
+/// Of particles whose species says no shape: diameters if they are round, else semi-axes.
+template <int Dim>
+void GsdSink<Dim>::write_own_shapes(const Configuration<Dim>& configuration,
+                                    const std::vector<CommonShape>& common) {
+  bool some_round = false, some_not = false;
   std::vector<float> diameters;
-  const std::vector<bool> has_diameters = have_diameters(configuration);
+  std::vector<double> semi_axes;
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Vec3 axes = semi_axes_in_space(configuration.shape[i]);
     diameters.push_back(static_cast<float>(2 * axes[0]));
-    Type type{configuration.species[i], axes[0], axes[1], axes[2]};
-    if (has_diameters[static_cast<std::size_t>(configuration.species[i])])
-      type = {configuration.species[i], 0, 0, 0};
-    const auto [place, is_new] = number.emplace(type, static_cast<std::uint32_t>(types.size()));
-    if (is_new) types.push_back(type);
-    type_ids.push_back(place->second);
+    semi_axes.insert(semi_axes.end(), axes.begin(), axes.end());
+    if (common[static_cast<std::size_t>(configuration.species[i])]) continue;
+    (configuration.shape[i].is_round() ? some_round : some_not) = true;
   }
-  if (types.size() > max_types)
-    throw UserError(fmt::format(
-        "the particles have {} different shapes, but a GSD file names every shape, and more than "
-        "{} are too many for the programs that read it; --to xyz or csv writes the semi-axes of "
-        "every particle",
-        types.size(), max_types));
-  std::vector<std::string> shapes;
-  for (const Type& type : types) shapes.push_back(shape_text<Dim>(type));
-  write_texts("particles/types", names_of(types, configuration.species_names));
-  file_.write<std::uint32_t>("particles/typeid", type_ids);
-  write_texts("particles/type_shapes", shapes);
-  if (std::ranges::count(has_diameters, true) > 0)
+  if (some_not)
+    file_.write<double>("log/particles/semiaxes", semi_axes, 3);
+  else if (some_round)
     file_.write<float>("particles/diameter", diameters);
 }
 

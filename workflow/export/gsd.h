@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "workflow/export/frame_sink.h"
@@ -15,12 +17,12 @@ namespace vitrel {
 ///     particles/N, position, image                 wrapped; unwrapped = position + image ∘ box
 ///     particles/orientation                        quaternion w, x, y, z; in the plane
 ///                                                  (cos θ/2, 0, 0, sin θ/2)
-///     particles/types, typeid, type_shapes         a type per species and shape, named by the
-///         species, or `<species>#1`, `#2` … if its shapes differ; {"type":"Ellipsoid","a":a,"b":b,"c":c}.
-///         Round particles of several sizes are one type, without a shape, {}, and have
-///         particles/diameter
-///         In space a round one is {"type":"Sphere","diameter":2a}. In the plane c = b: HOOMD-blue and
-///         OVITO do not take a flat one
+///     particles/types, typeid                      the species
+///     particles/type_shapes                        {"type":"Ellipsoid","a":a,"b":b,"c":c} of a species whose particles
+///         are all alike; in space a round one is {"type":"Sphere","diameter":2a}. In the plane c = b: HOOMD-blue and
+///         OVITO do not take a flat one. A species of several shapes has {}
+///     particles/diameter                           if there is such a species, and all of its particles are round
+///     log/particles/semiaxes                       if some are not: of all particles, in double precision
 ///     particles/mass, moment_inertia               about the own axes; 0 where rotation is not
 ///         modelled: of round particles, about the axis of a spheroid, and out of the plane
 ///     particles/velocity                           if the trajectory has it
@@ -32,18 +34,15 @@ namespace vitrel {
 template <int Dim>
 class GsdSink final : public FrameSink<Dim> {
  public:
-  /// Each type has a name and a shape in the file: a polydisperse system of many more particles
-  /// would give a file that programs choke on.
-  static constexpr std::size_t max_types = 20'000;
-
   GsdSink(const std::filesystem::path& path, StoredMotion motion);
-  /// UserError if the particles have more than `max_types` shapes.
   void write(const StoredFrame<Dim>& frame) override;
   void close() override { file_.close(); }
 
  private:
   void write_fixed(const Configuration<Dim>& configuration);
   void write_types(const Configuration<Dim>& configuration);
+  void write_own_shapes(const Configuration<Dim>& configuration,
+                        const std::vector<std::optional<Vec3>>& common);
   void write_texts(const std::string& name, const std::vector<std::string>& texts);
   void write_motion(const Configuration<Dim>& configuration);
 

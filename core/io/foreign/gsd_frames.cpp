@@ -16,7 +16,7 @@
 namespace vitrel {
 namespace {
 
-/// The name of the species that a type "A#2" is a part of.
+/// The name of the species that a type "A#2" is a part of, in files of earlier versions of vitrel.
 std::string species_of(const std::string& type) {
   const std::size_t mark = type.rfind('#');
   const bool is_part = mark != std::string::npos && mark + 1 < type.size() &&
@@ -26,14 +26,23 @@ std::string species_of(const std::string& type) {
 }
 
 /// The chunks that are read.
-const std::set<std::string> known_chunks = {"configuration/step",    "configuration/dimensions",
-                                            "configuration/box",     "log/time",
-                                            "particles/N",           "particles/types",
-                                            "particles/typeid",      "particles/type_shapes",
-                                            "particles/diameter",    "particles/position",
-                                            "particles/orientation", "particles/image",
-                                            "particles/mass",        "particles/moment_inertia",
-                                            "particles/velocity",    "particles/angmom"};
+const std::set<std::string> known_chunks = {"configuration/step",
+                                            "configuration/dimensions",
+                                            "configuration/box",
+                                            "log/time",
+                                            "particles/N",
+                                            "particles/types",
+                                            "particles/typeid",
+                                            "particles/type_shapes",
+                                            "particles/diameter",
+                                            "log/particles/semiaxes",
+                                            "particles/position",
+                                            "particles/orientation",
+                                            "particles/image",
+                                            "particles/mass",
+                                            "particles/moment_inertia",
+                                            "particles/velocity",
+                                            "particles/angmom"};
 
 class GsdFrames final : public ForeignFrames {
  public:
@@ -159,6 +168,7 @@ class GsdFrames final : public ForeignFrames {
     }
     const std::vector<std::optional<Vec3>> shapes = shapes_of(types.size());
     const std::vector<double> diameters = rows("particles/diameter", 1);
+    const std::vector<Vec3> semi_axes = vectors("log/particles/semiaxes");
     std::size_t without_shape = 0;
     if (types.size() > 1 && is_absent("particles/typeid"))
       frame.assumed["species"] = types.front() + ", the default of particles/typeid";
@@ -170,6 +180,8 @@ class GsdFrames final : public ForeignFrames {
       const std::size_t i = frame.semi_axes.size();
       if (!shapes.empty() && shapes[k]) {
         frame.semi_axes.push_back(*shapes[k]);
+      } else if (!semi_axes.empty()) {
+        frame.semi_axes.push_back(semi_axes[i]);
       } else {
         frame.semi_axes.push_back(Vec3::Constant(i < diameters.size() ? 0.5 * diameters[i] : 0));
         ++without_shape;
@@ -177,7 +189,7 @@ class GsdFrames final : public ForeignFrames {
     }
     if (without_shape > 0 && diameters.empty()) frame.semi_axes.clear();
     if (without_shape == 0 && !diameters.empty())
-      frame.skipped.insert("particles/diameter, as type_shapes says more");
+      frame.skipped.insert("particles/diameter, as the shapes say more");
   }
 
   /// The semi-axes of every type that has a shape; empty if the file does not have any.
