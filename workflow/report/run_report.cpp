@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/io/foreign/foreign_file.h"
 #include "workflow/configuration/hard_contacts.h"
 #include "workflow/storage/trajectory_file.h"
 #include "workflow/sweep/sweep_results.h"
@@ -160,7 +161,7 @@ template std::string particles_text(const Configuration3&);
 
 ReportData report_data(const std::vector<AnalysedRun>& runs, const KnownSystem& known) {
   ReportData data;
-  const bool in_plane = TrajectoryReader(runs.front().file, known).dimension() == 2;
+  const bool in_plane = dimension_of_file(runs.front().file, known) == 2;
   (in_plane ? add_runs<2> : add_runs<3>)(runs, known, data);
   if (runs.size() > 1) data.study = results_of_sweep(runs, glass_study(runs));
   return data;
