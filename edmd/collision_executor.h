@@ -86,7 +86,11 @@ class CollisionExecutor {
     ++state_.collisions;
     ++counters.collisions;
     counters.virial += result.impulse * dot(n, d);
-    counters.dissipated += 0.5 * result.impulse * result.speed * (1 - restitution);
+    const double lost = 0.5 * result.impulse * result.speed * (1 - restitution);
+    if (restitution > 1)
+      counters.added -= lost;
+    else
+      counters.dissipated += lost;
     return result;
   }
 
@@ -95,10 +99,9 @@ class CollisionExecutor {
     const ContactLaw& law = state_.of_pair(laws_, i, j);
     const bool is_short = tc_ > 0 && flight_is_short(i, j, tc_);
     const bool is_rough = law.is_rough() && i != j;
-    if (!is_short && !is_rough && law.restitution.is_elastic())
-      return impact(i, j, d, n, 1, counters).speed;
+    if (!is_rough && law.restitution.is_elastic()) return impact(i, j, d, n, 1, counters).speed;
     const double speed = speed_of_approach(i, j, n);
-    if (is_short) {
+    if (is_short || (tc_ > 0 && cannot_come_apart(law, i, j, speed))) {
       collide_again(i, j, d, n, speed, law.restitution(speed), counters);
       return 0;
     }
@@ -110,23 +113,24 @@ class CollisionExecutor {
     return speed;
   }
 
+  bool cannot_come_apart(const ContactLaw& law, Index i, Index j, double speed) const {
+    return !law.restitution.is_elastic() && speed < separation_speed(i, j);
+  }
+
   double restitution_of(const ContactLaw& law, Index i, Index j, double speed) const {
     if (law.restitution.is_elastic()) return 1;
-    const double separating = separation_speed(i, j) / speed;
-    return std::max(law.restitution(speed), tc_ > 0 ? separating : std::min(1., separating));
+    return std::max(law.restitution(speed), std::min(1., separation_speed(i, j) / speed));
   }
 
   /// Surfaces that separate more slowly would touch again at once by rounding. With the contact-time model they must also
-  /// come clear of the contact gap, and not touch again before t_c, although they may rotate towards each other with an
-  /// acceleration of the order of v²/R: there slower ones gain the speed, whose energy is accounted for.
+  /// come clear of the contact gap, although they may rotate towards each other with an acceleration of the order of
+  /// v²/R.
   double separation_speed(Index i, Index j) const {
     constexpr double of_fastest = 1e-13;  // far above the rounding of velocities
-    constexpr double contact_gaps = 1e5;
+    constexpr double contact_gaps = 1e4;
     if (State::is_round || !(tc_ > 0)) return of_fastest * state_.fastest;
     const double size = std::min(state_.shape(i).inradius(), state_.shape(j).inradius());
-    const double share =
-        std::max(tc_ * state_.fastest / size, std::sqrt(contact_gaps * state_.contact_gap / size));
-    return share * state_.fastest;
+    return std::sqrt(contact_gaps * state_.contact_gap / size) * state_.fastest;
   }
 
   /// Whether one of the two collided within this time before the present collision of theirs.
@@ -136,7 +140,8 @@ class CollisionExecutor {
     return since < contact_duration;
   }
 
-  /// By the contact-time model (inelastic_collapse.h): an elastic, smooth collision instead of this restitution.
+  /// By the contact-time model (inelastic_collapse.h): an elastic, smooth collision instead of this restitution. Surfaces
+  /// that would stay together gain the speed of separation; the energy that this adds is counted.
   void collide_again(Index i, Index j, const Vector& d, const Vector& n, double speed,
                      double restitution, RunCounters& counters) {
     const double elastic = std::max(1., separation_speed(i, j) / speed);

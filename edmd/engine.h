@@ -31,7 +31,8 @@ struct RunCounters {
   double dissipated = 0;            ///< energy lost in inelastic collisions
   std::uint64_t short_flights = 0;  ///< collisions that the contact-time model made elastic
   double spared = 0;                ///< energy of the normal motion that they would have lost
-  double supplied = 0;              ///< energy gained by kicks (driving.h)
+  double added = 0;     ///< energy that these gave to surfaces that would have stayed together
+  double supplied = 0;  ///< energy gained by kicks (driving.h)
 
   /// Adds the counts that predictions make.
   void add_predictions(const RunCounters& other) {

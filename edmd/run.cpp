@@ -143,6 +143,18 @@ class EventDrivenRun {
     state_.energy_drift = std::max(state_.energy_drift, drift);
     state_.largest_momentum =
         std::max(state_.largest_momentum, norm(mechanics(state_.configuration).momentum));
+    require_little_added_energy();
+  }
+
+  void require_little_added_energy() const {
+    constexpr double bound = 1e-5;
+    const double share = state_.counters.added / state_.flight_energy;
+    if (share > bound)
+      throw InvariantError(
+          "by time " + std::to_string(state_.configuration.time) +
+          " the contact-time model has added more than 1e-5 of the energy, to keep apart surfaces "
+          "that touch again and again; use a longer dynamics.contact_duration, a coefficient of "
+          "restitution closer to 1, or a shorter run");
   }
 
   /// Before time 0 the run equilibrates.

@@ -70,6 +70,7 @@ class RunJob {
       log_line(log_, request_.output.string() + ": the run is complete already");
     else
       advance(continues);
+    warn_of_exceptions();
     check_last_state();
     return {stored_.complete, was_complete, std::move(stored_.state), stored_.wall_seconds};
   }
@@ -195,6 +196,30 @@ class RunJob {
                 true);
   }
 
+  /// Contacts that did not follow their law count in the summary. If they are many, the results are not those of the law.
+  void warn_of_exceptions() const {
+    constexpr double acceptable_share = 0.05;
+    const RunCounters& c = stored_.state.counters;
+    const auto warn = [&](double part, double whole, const char* what) {
+      if (part > acceptable_share * whole)
+        log_line(log_, fmt::format("warning: {:.0f} % {}", 100 * part / whole, what));
+    };
+    const auto collisions = static_cast<double>(c.collisions);
+    warn(static_cast<double>(c.blocked_rotations), collisions,
+         "of the collisions were those of hard particles, because neighbours blocked the rotation "
+         "of the pair "
+         "(blocked_rotations): the contacts are too long, or the system too dense, for "
+         "event-driven dynamics");
+    warn(static_cast<double>(c.early_releases), collisions,
+         "of the collisions ended before their time, because a third particle hit "
+         "(early_releases): the contacts are "
+         "too long, or the system too dense, for event-driven dynamics");
+    if (!is_soft())
+      warn(c.spared, c.dissipated,
+           "of the dissipated energy is what the contact-time model spared (spared_energy): "
+           "dynamics.contact_duration is not well below the time between collisions");
+  }
+
   void check_last_state() const {
     if (!stops_on_overlap()) return;
     const ExactCheck<Dim> check = exact_check(stored_.state.configuration);
@@ -267,6 +292,7 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
   if (dynamics.contact_duration > 0 || dynamics.contact) {
     summary["short_flights"] = counters.short_flights;
     summary["spared_energy"] = counters.spared;
+    summary["added_energy"] = counters.added;
   }
   if (dynamics.contact) {
     summary["blocked_rotations"] = counters.blocked_rotations;

@@ -23,6 +23,7 @@ void each_item_of_counters(Counters& counters, const std::string& path, Visit&& 
   visit(path + "integrations", counters.integrations);
   visit.if_recorded(path + "short_flights", counters.short_flights);
   visit.if_recorded(path + "spared", counters.spared);
+  visit.if_recorded(path + "added", counters.added);
   visit.if_recorded(path + "supplied", counters.supplied);
 }
 
