@@ -49,7 +49,7 @@ CLI::Option* add_file(CLI::App& sub, const std::string& name, fs::path& file,
 }
 
 CLI::Option* add_output(CLI::App& sub, fs::path& output, const std::string& what) {
-  return add_file(sub, "-o,--output", output, what);
+  return add_file(sub, "-o,--output", output, what)->check(not_empty);
 }
 
 void add_parameter_file(CLI::App& sub, ParameterOptions& source) {

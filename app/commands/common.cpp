@@ -41,7 +41,6 @@ void require_key_of(std::span<const std::string_view> sections, const std::strin
 }
 
 void require_folder_of(const fs::path& output) {
-  if (output.empty()) throw UserError("-o: the name of the output is empty");
   const fs::path folder = fs::absolute(output).parent_path();
   if (!fs::is_directory(folder))
     throw FileError(fmt::format("{}: cannot be written: there is no folder {}", output.string(),

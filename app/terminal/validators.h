@@ -37,6 +37,12 @@ inline CLI::Validator between(double low, double high) {
                      fmt::format("a number between {} and {}", low, high));
 }
 
+inline const CLI::Validator not_empty = {[](const std::string& text) {
+                                           return text.empty() ? std::string("the name is empty")
+                                                               : std::string();
+                                         },
+                                         ""};
+
 /// Of a seed: TOML has no greater numbers.
 inline const CLI::Validator seed_number = {
     [](const std::string& text) {

@@ -1,10 +1,14 @@
 #include "core/io/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <random>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include "core/error.h"
 
@@ -30,21 +34,57 @@ void move_file(const fs::path& from, const fs::path& to) {
                     " to it: " + error.message());
 }
 
+/// Calls `make` with one name after the other, until it makes a new one.
+template <class Make>
+fs::path make_partial(const fs::path& path, const char* what, const Make& make) {
+  constexpr int attempts = 100;
+  std::random_device random;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const fs::path partial = path.string() + "." + std::to_string(random()) + ".partial";
+    if (make(partial)) return partial;
+    if (errno != EEXIST) break;
+  }
+  throw FileError(path.string() + ": cannot create the " + what + ": " +
+                  std::generic_category().message(errno));
+}
+
+/// The file that a link leads to, whether it exists or not.
+fs::path target_of(const fs::path& path) {
+  std::error_code error;
+  const fs::path link = fs::read_symlink(path, error);
+  if (error) return path;
+  const fs::path target = fs::weakly_canonical(path.parent_path() / link, error);
+  return error ? path : target;
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), partial_(path_) {
-  partial_ += ".partial";
+fs::path make_partial_file(const fs::path& path) {
+  return make_partial(path, "file", [](const fs::path& partial) {
+    const int descriptor =
+        ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    return descriptor >= 0 && ::close(descriptor) == 0;
+  });
 }
+
+fs::path make_partial_folder(const fs::path& path) {
+  return make_partial(path, "folder",
+                      [](const fs::path& partial) { return ::mkdir(partial.c_str(), 0777) == 0; });
+}
+
+AtomicFile::AtomicFile(fs::path path)
+    : path_(target_of(path)), partial_(make_partial_file(path_)) {}
 
 AtomicFile::~AtomicFile() {
   std::error_code ignored;
-  fs::remove(partial_, ignored);
+  if (!partial_.empty()) fs::remove(partial_, ignored);
 }
 
 void AtomicFile::commit(const fs::path& previous) {
   synchronize(partial_);
   if (!previous.empty() && fs::exists(path_)) move_file(path_, previous);
   move_file(partial_, path_);
+  partial_.clear();
   synchronize(path_.has_parent_path() ? path_.parent_path() : ".");
 }
 

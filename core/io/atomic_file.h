@@ -2,10 +2,17 @@
 
 #include <filesystem>
 
+/// @file
+/// What appears under its name when it is complete. Until then it is called `<path>.<random>.partial`, a name that no file
+/// had, and lies in the same folder. Only what this process made is ever deleted: what a killed one left stays.
 namespace vitrel {
 
-/// A file that is replaced atomically: it is written as `<path>.partial` in the same folder, and `commit` renames it.
-/// Without a commit the destructor removes the partial file.
+/// An empty file, or a folder, of such a name; no link is followed. FileError.
+std::filesystem::path make_partial_file(const std::filesystem::path& path);
+std::filesystem::path make_partial_folder(const std::filesystem::path& path);
+
+/// A file that is replaced atomically: it is written as `partial()`, and `commit` renames it. Without a commit the
+/// destructor removes the partial file. If `path` is a link, the file that it leads to is replaced.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -22,7 +29,7 @@ class AtomicFile {
 
  private:
   std::filesystem::path path_;
-  std::filesystem::path partial_;
+  std::filesystem::path partial_;  ///< empty once it is committed
 };
 
 }  // namespace vitrel

@@ -27,7 +27,7 @@ inline int dimension_of(const Checkpoint& checkpoint) {
   return checkpoint.configuration.index() == 0 ? 2 : 3;
 }
 
-/// Writes `<path>.partial`, waits for the disk, keeps the checkpoint before as `<path>.previous`,
+/// Writes a file beside it (atomic_file.h), waits for the disk, keeps the checkpoint before as `<path>.previous`,
 /// and renames. Doubles are stored exactly, and a checksum covers all bytes. Killed at any moment, or on
 /// a full disk, at least one complete checkpoint stays. Throws FileError; both earlier files are then still there.
 void save_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);

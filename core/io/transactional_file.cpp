@@ -64,7 +64,7 @@ constexpr const char* truncated =
 
 bool locking_is_off() {
   const char* setting = std::getenv("HDF5_USE_FILE_LOCKING");
-  return setting && std::string(setting) == "FALSE";
+  return setting && (std::string(setting) == "FALSE" || std::string(setting) == "0");
 }
 
 /// Tries again for a few milliseconds: another process may be between two of its system calls.
@@ -116,9 +116,16 @@ TransactionalFile::~TransactionalFile() {
   static_cast<void>(::close(descriptor_));  // what has to be on the disk was synchronized
 }
 
-/// True where there are no locks.
+/// Where there are no locks, reading goes on, but writing is refused.
 bool TransactionalFile::try_lock(int kind) {
-  return locking_is_off() || ::flock(descriptor_, kind | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+  if (locking_is_off() || ::flock(descriptor_, kind | LOCK_NB) == 0) return true;
+  if (errno == EWOULDBLOCK || errno == EINTR) return false;
+  if (kind == LOCK_EX)
+    fail(path_, opening(mode_),
+         "the file system has no locks (" + system_message() +
+             "), so another program could write it at the same time; if none does, set "
+             "HDF5_USE_FILE_LOCKING=FALSE");
+  return true;
 }
 
 /// A reader holds the lock for a moment only, to find out whether another process writes.

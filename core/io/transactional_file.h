@@ -37,8 +37,8 @@ namespace vitrel {
 /// writes it.
 ///
 /// Writing never fails towards the caller: the first failure is noted, everything after it is kept
-/// in memory, and `commit` reports it. One process at a time may write, by an advisory lock; where
-/// the file system has no locks, or HDF5_USE_FILE_LOCKING is FALSE, there is none.
+/// in memory, and `commit` reports it. One process at a time may write, by an advisory lock. Where the file system has no
+/// locks, writing is refused, unless HDF5_USE_FILE_LOCKING is FALSE: then the user sees to it.
 class TransactionalFile {
  public:
   enum class Mode { read, write, create };

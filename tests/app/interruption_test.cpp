@@ -11,6 +11,7 @@
 #include "core/io/checked.h"
 #include "core/random/stream.h"
 #include "tests/app/program.h"
+#include "tests/support/partial_files.h"
 
 namespace vitrel {
 namespace {
@@ -194,14 +195,15 @@ TEST(Sweep, StoppedDuringTheAnalysisItContinues) {
     std::filesystem::remove(job / file);
   const auto correlations = job / "run.h5.correlations.h5";
   ASSERT_EQ(mkfifo(correlations.c_str(), 0600), 0);
-  const auto begins = [&job] { return std::filesystem::exists(job / "analyze.json.partial"); };
+  // The child's summary is the only file that is begun.
+  const auto begins = [&job] { return !partial_files(job).empty(); };
   for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
-    std::filesystem::remove(job / "analyze.json.partial");
     const Outcome stopped = run_and_signal(folder.path(), sweep, begins, signal);
     EXPECT_EQ(stopped.code, 5);
     EXPECT_THAT(stopped.errors, testing::AllOf(testing::HasSubstr("the same command continues"),
                                                testing::Not(testing::HasSubstr("failed"))));
     EXPECT_FALSE(std::filesystem::exists(job / "done.json"));
+    EXPECT_THAT(partial_files(job), IsEmpty());
   }
   std::filesystem::remove(correlations);
   ASSERT_EQ(run(folder.path(), sweep).code, 0);

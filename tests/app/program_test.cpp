@@ -17,6 +17,7 @@
 #include "core/io/checked.h"
 #include "core/io/h5md.h"
 #include "tests/app/program.h"
+#include "tests/support/partial_files.h"
 
 namespace vitrel {
 namespace {
@@ -134,7 +135,7 @@ TEST(Program, PrepareReportsTheQualityOfTheState) {
   EXPECT_THAT(told.output, AllOf(HasSubstr("reduced pressure"), HasSubstr("nematic order"),
                                  HasSubstr("hexatic order"), HasSubstr("displacement time"),
                                  HasSubstr("exact check: 0 overlaps")));
-  EXPECT_FALSE(std::filesystem::exists(folder / "state.quality.json.partial"));
+  EXPECT_THAT(partial_files(folder.path()), testing::IsEmpty());
   const Outcome asked = run(folder.path(), {"prepare", "p.toml", "-o", "same.h5", "--json", "-q"});
   ASSERT_EQ(asked.code, 0) << asked.errors;
   const Json summary = Json::parse(asked.output);

@@ -19,6 +19,7 @@
 #include "core/io/h5md.h"
 #include "core/random/stream.h"
 #include "tests/support/files.h"
+#include "tests/support/partial_files.h"
 
 /// HDF5 1.10 loses a few hundred bytes when it meets damaged metadata.
 // NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming): the sanitizer's name
@@ -31,6 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 class TrajectoryFile : public Files {};
 class CheckpointFile : public Files {};
@@ -679,7 +681,7 @@ TEST_F(SmallDisk, CreatingWithoutSpaceLeavesNothing) {
         [&] { write_state(disk_ / "state.h5", random_configuration(1500, 0), some_provenance()); });
     EXPECT_THAT(message, HasSubstr("No space left on device")) << free;
     EXPECT_FALSE(fs::exists(disk_ / "state.h5"));
-    EXPECT_FALSE(fs::exists(disk_ / "state.h5.partial"));
+    EXPECT_THAT(partial_files(disk_), IsEmpty());
     fs::remove(disk_ / "filler");
   }
   write_state(disk_ / "state.h5", random_configuration(1500, 0), some_provenance());
@@ -761,7 +763,7 @@ TEST_F(CheckpointFile, TheOneBeforeIsKeptAndTakenIfTheNewestIsCutShort) {
   const fs::path path = file("run.checkpoint");
   for (std::uint64_t step : {1, 2, 3}) save_checkpoint(path, some_checkpoint(step));
   expect_same(load_checkpoint(path).checkpoint, some_checkpoint(3));
-  EXPECT_FALSE(fs::exists(file("run.checkpoint.partial")));
+  EXPECT_THAT(partial_files(path.parent_path()), IsEmpty());
   for (const auto size : {fs::file_size(path) - 1, fs::file_size(path) / 2, std::uintmax_t{0}}) {
     fs::resize_file(path, size);
     const LoadedCheckpoint loaded = load_checkpoint(path);
@@ -859,7 +861,7 @@ TEST_F(SmallDisk, AFailedCheckpointLeavesBothFilesIntact) {
     EXPECT_THAT(message, HasSubstr("No space left on device")) << free;
     EXPECT_EQ(contents(path), newest);
     EXPECT_EQ(contents(disk_ / "run.checkpoint.previous"), before);
-    EXPECT_FALSE(fs::exists(disk_ / "run.checkpoint.partial"));
+    EXPECT_THAT(partial_files(disk_), IsEmpty());
     fs::remove(disk_ / "filler");
   }
   save_checkpoint(path, some_checkpoint(3));

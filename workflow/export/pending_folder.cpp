@@ -6,21 +6,17 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/io/atomic_file.h"
 
 namespace vitrel {
 namespace fs = std::filesystem;
 
-PendingFolder::PendingFolder(fs::path folder) : folder_(std::move(folder)), partial_(folder_) {
-  partial_ += ".partial";
-  std::error_code error;
-  fs::remove_all(partial_, error);
-  if (!fs::create_directory(partial_, error))
-    throw FileError(fmt::format("{}: cannot be made: {}", partial_.string(), error.message()));
-}
+PendingFolder::PendingFolder(fs::path folder)
+    : folder_(std::move(folder)), partial_(make_partial_folder(folder_)) {}
 
 PendingFolder::~PendingFolder() {
   std::error_code ignored;
-  fs::remove_all(partial_, ignored);
+  if (!partial_.empty()) fs::remove_all(partial_, ignored);
 }
 
 void PendingFolder::commit() {
@@ -29,6 +25,7 @@ void PendingFolder::commit() {
   if (error)
     throw FileError(fmt::format("{}: cannot rename {} to it: {}", folder_.string(),
                                 partial_.string(), error.message()));
+  partial_.clear();
 }
 
 }  // namespace vitrel

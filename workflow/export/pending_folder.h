@@ -4,11 +4,10 @@
 
 namespace vitrel {
 
-/// A new folder that appears complete: its files are written into `<folder>.partial`, and `commit`
-/// renames that. Without a commit the destructor removes it. Throws FileError.
+/// A new folder that appears complete: its files are written into `partial()` (core/io/atomic_file.h), and `commit` renames
+/// that. Without a commit the destructor removes it. Throws FileError.
 class PendingFolder {
  public:
-  /// Removes what a killed program left under the partial name.
   explicit PendingFolder(std::filesystem::path folder);
   ~PendingFolder();
   PendingFolder(const PendingFolder&) = delete;
@@ -20,7 +19,7 @@ class PendingFolder {
 
  private:
   std::filesystem::path folder_;
-  std::filesystem::path partial_;
+  std::filesystem::path partial_;  ///< empty once it is committed
 };
 
 }  // namespace vitrel

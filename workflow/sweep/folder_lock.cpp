@@ -17,7 +17,8 @@ namespace vitrel {
 // Children inherit the descriptor and with it the lock: one that outlives a killed parent, if only by
 // the moment it takes to die, still works in the folder.
 FolderLock::FolderLock(const std::filesystem::path& folder)
-    : path_(folder / "lock"), descriptor_(open(path_.c_str(), O_RDWR | O_CREAT, 0666)) {
+    : path_(folder / "lock"),
+      descriptor_(open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW, 0666)) {
   if (descriptor_ < 0)
     throw FileError(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
 }

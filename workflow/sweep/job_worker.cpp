@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/io/atomic_file.h"
 #include "core/io/json.h"
 #include "core/io/text_file.h"
 #include "workflow/sweep/job_folder.h"
@@ -54,7 +53,8 @@ void JobWorker::poll() {
   } else if (*code != 0) {
     give_up(State::failed);
   } else {
-    AtomicFile(summary(steps_[next_++])).commit();
+    printed_->commit();
+    ++next_;
     start_next();
   }
 }
@@ -83,8 +83,8 @@ void JobWorker::start_next() {
   const Step& step = steps_[next_];
   // A product without its summary comes from a sweep killed between the two; it is made again.
   if (step.skip_if_there) std::filesystem::remove(folder_ / step.product);
-  const std::filesystem::path unfinished = summary(step).string() + ".partial";
-  child_.emplace(command(step), unfinished, folder_ / "log.txt");
+  printed_.emplace(summary(step));
+  child_.emplace(command(step), printed_->partial(), folder_ / "log.txt");
 }
 
 std::vector<std::string> JobWorker::command(const Step& step) const {
@@ -108,6 +108,7 @@ void JobWorker::finish() {
 
 void JobWorker::give_up(State state) {
   state_ = state;
+  printed_.reset();
   write_job_end(state == State::failed ? JobStage::failed : JobStage::stopped, steps_[next_].name,
                 exit_code_, folder_);
 }

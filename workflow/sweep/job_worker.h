@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/atomic_file.h"
 #include "workflow/sweep/process.h"
 #include "workflow/sweep/sweep_jobs.h"
 
@@ -48,6 +49,7 @@ class JobWorker {
   std::filesystem::path folder_, program_;
   std::vector<Step> steps_;
   std::size_t next_ = 0;
+  std::optional<AtomicFile> printed_;  ///< by the step that runs: its summary
   std::optional<ChildProcess> child_;
   State state_ = State::running;
   int exit_code_ = 0;

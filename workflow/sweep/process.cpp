@@ -18,7 +18,8 @@ namespace vitrel {
 namespace {
 
 int open_for_writing(const std::filesystem::path& path, int flags) {
-  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666);
+  const int descriptor =
+      open(path.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | flags, 0666);
   if (descriptor < 0)
     throw FileError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
   return descriptor;
