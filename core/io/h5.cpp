@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/io/h5_open_file.h"
+#include "core/io/h5_storage.h"
 
 namespace vitrel::h5 {
 namespace {
@@ -206,60 +207,12 @@ Shape Dataset::shape() const {
   return shape;
 }
 
-namespace {
-
-bool has_checksums(const Check& check, const Handle& creation) {
-  const int filters = check(H5Pget_nfilters(creation.id()));
-  for (int k = 0; k < filters; ++k) {
-    unsigned flags = 0, configuration = 0;
-    std::size_t values = 0;
-    if (check(H5Pget_filter2(creation.id(), static_cast<unsigned>(k), &flags, &values, nullptr, 0,
-                             nullptr, &configuration)) == H5Z_FILTER_FLETCHER32)
-      return true;
-  }
-  return false;
-}
-
-}  // namespace
-
-/// HDF5 1.10 searches the whole index for this, so it is asked only about chunks that seem to be empty.
-bool Dataset::has_chunk(const Check& check, const Shape& at) const {
-  unsigned skipped = 0;
-  haddr_t address = HADDR_UNDEF;
-  hsize_t bytes = 0;
-  check(H5Dget_chunk_info_by_coord(handle_.id(), sizes(at), &skipped, &address, &bytes));
-  return address != HADDR_UNDEF;
-}
-
-// HDF5 itself reads beyond the memory of such a chunk.
-void Dataset::require_checksums(std::uint64_t first, std::uint64_t last) const {
-  constexpr hsize_t checksum = 4;
-  const Check check(*file_, "inspect", name_);
-  const Handle creation(check(H5Dget_create_plist(handle_.id())));
-  if (check(H5Pget_layout(creation.id())) != H5D_CHUNKED || !has_checksums(check, creation)) return;
-  const Shape extent = shape();
-  Shape chunk(extent.size());
-  check(H5Pget_chunk(creation.id(), static_cast<int>(chunk.size()), sizes(chunk)));
-  Shape at(extent.size(), 0);
-  at[0] = first / chunk[0] * chunk[0];
-  while (at[0] <= last) {
-    hsize_t bytes = 0;
-    check(H5Dget_chunk_storage_size(handle_.id(), sizes(at), &bytes));
-    if (bytes < checksum && has_chunk(check, at))
-      throw_file_error(file_->path(), "read", name_, "the file is damaged");
-    std::size_t axis = at.size() - 1;
-    for (at[axis] += chunk[axis]; axis > 0 && at[axis] >= extent[axis]; at[axis] += chunk[axis]) {
-      at[axis] = 0;
-      --axis;
-    }
-  }
-}
-
 template <class T>
 std::vector<T> Dataset::read() const {
   const Shape extent = shape();
   std::vector<T> values(elements(extent));
-  if (!values.empty() && !extent.empty()) require_checksums(0, extent[0] - 1);
+  if (!values.empty() && !extent.empty())
+    require_checksums(*file_, handle_, name_, extent, 0, extent[0] - 1);
   const Check check(*file_, "read", name_);
   check(H5Dread(handle_.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   return values;
@@ -321,7 +274,7 @@ void Dataset::write_frame(std::uint64_t frame, std::span<const T> values) {
 template <class T>
 void Dataset::read_frame(std::uint64_t frame, std::span<T> values) const {
   const FrameSpaces spaces = frame_spaces(frame, values.size());
-  require_checksums(frame, frame);
+  require_checksums(*file_, handle_, name_, shape(), frame, frame);
   const Check check(*file_, "read", name_);
   check(H5Dread(handle_.id(), native_type<T>(), spaces.memory.id(), spaces.file.id(), H5P_DEFAULT,
                 values.data()));
@@ -353,12 +306,7 @@ std::string Group::path_of(const std::string& name) const {
 }
 
 bool Group::has(const std::string& path) const {
-  for (auto slash = path.find('/');; slash = path.find('/', slash + 1)) {
-    const std::string part = path.substr(0, slash);
-    const Check check(*file_, "look for", path_of(part));
-    if (check(H5Lexists(handle_.id(), part.c_str(), H5P_DEFAULT)) == 0) return false;
-    if (slash == std::string::npos) return true;
-  }
+  return has_link(*file_, handle_, name_, path);
 }
 
 bool Group::has_object(const std::string& path, int type) const {
@@ -389,13 +337,16 @@ std::vector<std::string> Group::members() const {
 
 Group Group::group(const std::string& path) const {
   const Check check(*file_, "open group", path_of(path));
+  static_cast<void>(has(path));  // hard links only; HDF5 says what is missing
   Handle opened(check(H5Gopen2(handle_.id(), path.c_str(), H5P_DEFAULT)));
   return {file_, std::move(opened), path_of(path)};
 }
 
 Dataset Group::dataset(const std::string& path) const {
   const Check check(*file_, "open dataset", path_of(path));
+  static_cast<void>(has(path));  // hard links only; HDF5 says what is missing
   Handle opened(check(H5Dopen2(handle_.id(), path.c_str(), H5P_DEFAULT)));
+  require_plain_storage(*file_, opened, path_of(path));
   return {file_, std::move(opened), path_of(path)};
 }
 

@@ -119,9 +119,6 @@ class Dataset : public Object {
     Handle file, memory;
   };
   FrameSpaces frame_spaces(std::uint64_t frame, std::uint64_t count) const;
-  /// Throws FileError if a chunk of frames first … last is too short for the checksum that it should have.
-  void require_checksums(std::uint64_t first, std::uint64_t last) const;
-  bool has_chunk(const Check& check, const Shape& at) const;
 };
 
 /// How the frames of a series are stored; all have a checksum. Chunks are written once or keep their size and

@@ -23,12 +23,15 @@ const DriverFile& self(const H5FD_t* file) {
   return *reinterpret_cast<const DriverFile*>(file);
 }
 
-H5FD_t* open_file(const char*, unsigned, hid_t access, haddr_t) {
+/// Files that an open one refers to come here, too: none of them is opened.
+H5FD_t* open_file(const char* name, unsigned, hid_t access, haddr_t) {
   const void* info = H5Pget_driver_info(access);
   if (!info) return nullptr;
+  TransactionalFile* file = *static_cast<TransactionalFile* const*>(info);
+  if (file->path() != name) return nullptr;
   auto* opened = new (std::nothrow) DriverFile{};
   if (!opened) return nullptr;
-  opened->file = *static_cast<TransactionalFile* const*>(info);
+  opened->file = file;
   return &opened->base;
 }
 
