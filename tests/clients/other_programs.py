@@ -135,7 +135,7 @@ with tempfile.TemporaryDirectory() as folder:
     vitrel("run", "p.toml", "-o", "run.h5")
     _, right = results("run.h5")
     run = Run("run.h5")
-    interval = f"import.time_per_step={run.times[1] - run.times[0]!r}"
+    interval = f"import.time_per_step={float(run.times[1] - run.times[0])!r}"
     write_gsd(run, "all_images.gsd", images=True)
     write_gsd(run, "first_images.gsd", images=False)
     write_xyz(run, "run.xyz")
