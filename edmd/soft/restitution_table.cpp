@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/elementary.h"
@@ -11,6 +12,7 @@
 #include "core/io/atomic_file.h"
 #include "core/io/h5.h"
 #include "core/io/provenance.h"
+#include "core/io/word_checksum.h"
 
 namespace vitrel {
 namespace {
@@ -88,6 +90,19 @@ void write_array(h5::Group& group, const std::string& name, const std::vector<T>
   series.write_frame(0, std::span<const T>(values));
 }
 
+/// Of all numbers: the checksums of HDF5 belong to whoever writes the file, and change with it.
+template <class Content>
+std::uint64_t checksum_of(const Content& content) {
+  WordChecksum checksum;
+  for (const auto& node : content.nodes) {
+    checksum.add(std::bit_cast<std::uint64_t>(node.middle));
+    checksum.add(static_cast<std::uint64_t>(node.axis));
+    checksum.add(static_cast<std::uint64_t>(node.next));
+  }
+  for (const double number : content.panels) checksum.add(std::bit_cast<std::uint64_t>(number));
+  return checksum.value();
+}
+
 template <class Panels>
 void write_panels(h5::Group& group, const Panels& panels) {
   std::vector<double> middle;
@@ -101,9 +116,10 @@ void write_panels(h5::Group& group, const Panels& panels) {
   write_array(group, "axis", axis);
   write_array(group, "next", next);
   write_array(group, "panels", panels.content().panels);
+  group.set_attribute("checksum", checksum_of(panels.content()));
 }
 
-/// Throws FileError if the file is unreadable or not a tree of panels.
+/// Throws FileError if the file is unreadable, not a tree of panels, or not as vitrel wrote it.
 template <class Panels>
 Panels read_panels(const h5::Group& group, const typename Panels::Bounds& box) {
   typename Panels::Content content;
@@ -116,6 +132,8 @@ Panels read_panels(const h5::Group& group, const typename Panels::Bounds& box) {
     content.nodes.push_back({middle[k], axis[k], next[k]});
   content.panels = group.dataset("panels").read<double>();
   if (!Panels::is_valid(content)) throw FileError(group.name() + ": not a tree of panels");
+  if (group.number_attribute<std::uint64_t>("checksum") != checksum_of(content))
+    throw FileError(group.name() + ": was changed");
   return Panels(box, std::move(content));
 }
 

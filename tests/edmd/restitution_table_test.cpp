@@ -1,4 +1,5 @@
 #include "edmd/soft/restitution_table.h"
+#include "core/io/h5.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -238,6 +239,25 @@ TEST_F(StoredTableFile, IsBuiltAgainIfDamaged) {
   fs::resize_file(file, 0);
   EXPECT_FALSE(keep().loaded);
   EXPECT_TRUE(keep().loaded);
+}
+
+// By another program, which keeps the checksums of HDF5 right.
+TEST_F(StoredTableFile, IsBuiltAgainIfItWasChanged) {
+  const CachedTable whole = keep();
+  for (const char* name : {"middle", "panels"}) {
+    {
+      h5::File file = h5::File::open(folder_ / "table.h5", h5::Access::write);
+      h5::Dataset stored = file.root().dataset(name);
+      std::vector<double> numbers = stored.read<double>();
+      numbers.at(numbers.size() / 2) += 1e-9;
+      stored.write<double>(numbers);
+      file.close();
+    }
+    const CachedTable again = keep();
+    EXPECT_FALSE(again.loaded) << name;
+    expect_equal(whole.table, again.table);
+    EXPECT_TRUE(keep().loaded);
+  }
 }
 
 TEST_F(StoredTableFile, WithoutAPlaceItIsAsGood) {
