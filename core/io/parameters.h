@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/io/toml.h"
+#include "core/state/bounds.h"
 
 /// @file
 /// Parameters are plain structs. One function per struct, describe(struct, visitor), names its
@@ -28,6 +29,7 @@ struct Field {
   std::string key;
   std::string unit;             ///< "" for pure numbers, words and flags
   std::string sentence;         ///< what the field means
+  Bounds bounds = {};           ///< of every number of the field
   std::string former_key = {};  ///< of earlier versions, still read; "" for none
 };
 
@@ -144,6 +146,9 @@ struct BadValue : UserError {
 /// and what would be right; so does a BadValue thrown by `validate`, which runs last.
 void read_parameters(const TomlNode& root, const FieldVisitor::Inside& describe,
                      const std::function<void()>& validate);
+
+/// Throws BadValue for the first number outside the bounds of its field.
+void check_bounds(const FieldVisitor::Inside& describe);
 
 /// The fields as TOML text, equal values giving equal text, doubles to the last bit.
 std::string write_parameters(const FieldVisitor::Inside& describe);

@@ -10,42 +10,49 @@ namespace vitrel {
 void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
   visit.field({"longest_lag", "",
                "Longest time difference, as a fraction of an evenly sampled run. For other runs "
-               "time differences extend to the end."},
+               "time differences extend to the end.",
+               bounds::share_above_none},
               p.axis.longest_lag);
   visit.field(
       {"every_lag_up_to", "sample intervals",
        "Up to this value every time difference is evaluated; beyond it they are spaced "
-       "logarithmically. For runs that are not evenly sampled all are spaced logarithmically."},
+       "logarithmically. For runs that are not evenly sampled all are spaced logarithmically.",
+       bounds::at_least_one},
       p.axis.every_lag_up_to);
-  visit.field(
-      {"lags_per_decade", "", "Time differences per factor of ten in the logarithmic part."},
-      p.axis.lags_per_decade);
+  visit.field({"lags_per_decade", "", "Time differences per factor of ten in the logarithmic part.",
+               bounds::at_least_one},
+              p.axis.lags_per_decade);
   visit.field({"max_origins", "",
                "Maximum number of time origins per time difference; if there are more, they are "
                "thinned evenly.",
-               "most_origins"},
+               bounds::at_least_one, "most_origins"},
               p.axis.max_origins);
   visit.field(
       {"wave_numbers", "1/length",
        "Wave numbers q of the intermediate scattering functions. If empty: approximately that of "
        "the main peak of the structure factor, with the number density ρ 2π √(2ρ/√3), in space "
        "2π √3 (ρ/4)^⅓. A sweep over packing fractions uses the highest density of its jobs for all "
-       "of them."},
+       "of them.",
+       bounds::positive},
       p.wave_numbers);
-  visit.field({"orders", "",
+  visit.field({"orders",
+               "",
                "Orders n of the orientational correlations, ⟨cos n(θ(t) − θ(0))⟩ in the plane and "
-               "Legendre's ⟨P_n(u(0)·u(t))⟩ in space. If empty: 2 and 4, in space 1 and 2."},
+               "Legendre's ⟨P_n(u(0)·u(t))⟩ in space. If empty: 2 and 4, in space 1 and 2.",
+               {.low = 1, .high = 100, .words = "be a whole number from 1 to 100"}},
               p.orders);
   visit.field({"waiting_times", "time",
                "Waiting times since the first sample, each followed by correlations of its frame "
-               "alone with all later ones: how a glass ages. Sample evenly for them."},
+               "alone with all later ones: how a glass ages. Sample evenly for them.",
+               bounds::time_or_none},
               p.waiting_times);
   visit.field({"overlap_distance", "length",
                "Cutoff distance of the overlap function and the four-point susceptibility: a "
                "particle that has moved by less counts as immobile. Choose it somewhat larger than "
-               "the rattling in a cage."},
+               "the rattling in a cage.",
+               bounds::length},
               p.overlap_distance);
-  visit.field({"memory", "bytes", "Memory for particle tracks."}, p.memory);
+  visit.field({"memory", "bytes", "Memory for particle tracks.", {1 << 20}}, p.memory);
 }
 
 void describe_structure(StructureOptions& p, FieldVisitor& visit) {
@@ -54,48 +61,37 @@ void describe_structure(StructureOptions& p, FieldVisitor& visit) {
        "Maximum number of frames in averages; if there are more, they are thinned evenly. 0: "
        "only the order of single frames, which the verdict on equilibrium needs."},
       p.max_frames);
-  visit.field({"wave_number_max", "1/length", "Maximum wave number q of structure factors."},
+  visit.field({"wave_number_max", "1/length", "Maximum wave number q of structure factors.",
+               bounds::positive},
               p.shells.wave_number_max);
-  visit.field({"wave_number_step", "1/length",
-               "Width of the q shells over which structure factors are averaged."},
-              p.shells.wave_number_step);
+  visit.field(
+      {"wave_number_step", "1/length",
+       "Width of the q shells over which structure factors are averaged.", bounds::positive},
+      p.shells.wave_number_step);
   visit.field({"distance_max", "length",
-               "Maximum distance of pair correlations; at most half the shorter side of the box."},
+               "Maximum distance of pair correlations; at most half the shorter side of the box.",
+               bounds::length},
               p.pairs.distance_max);
-  visit.field({"distance_step", "length", "Width of the distance bins."}, p.pairs.distance_step);
+  visit.field({"distance_step", "length", "Width of the distance bins.", bounds::length},
+              p.pairs.distance_step);
 }
 
 void validate_analysis(const DisplacementOptions& p) {
   const Rules rules("analysis");
-  rules.require(
-      p.axis.longest_lag > 0 && p.axis.longest_lag <= 1, "longest_lag",
-      fmt::format("is {}, but must lie above 0 and not above 1", show(p.axis.longest_lag)));
-  rules.at_least(static_cast<std::int64_t>(p.axis.every_lag_up_to), 1, "every_lag_up_to");
-  rules.at_least(static_cast<std::int64_t>(p.axis.lags_per_decade), 1, "lags_per_decade");
-  rules.at_least(static_cast<std::int64_t>(p.axis.max_origins), 1, "max_origins");
-  for (const double q : p.wave_numbers) rules.positive(q, "wave_numbers");
   for (const double n : p.orders)
-    rules.require(n >= 1 && n <= 100 && n == std::floor(n), "orders",
+    rules.require(n == std::floor(n), "orders",
                   fmt::format("has {}, but must hold whole numbers from 1 to 100", show(n)));
   for (std::size_t k = 1; k < p.orders.size(); ++k)
     rules.require(p.orders[k] > p.orders[k - 1], "orders", "must hold increasing numbers");
-  for (const double time : p.waiting_times)
-    rules.require(time >= 0, "waiting_times",
-                  fmt::format("has {}, but must hold times from 0 on", show(time)));
   for (std::size_t k = 1; k < p.waiting_times.size(); ++k)
     rules.require(p.waiting_times[k] > p.waiting_times[k - 1], "waiting_times",
                   "must hold increasing times");
-  rules.positive(p.overlap_distance, "overlap_distance");
-  rules.at_least(static_cast<std::int64_t>(p.memory), 1 << 20, "memory");
 }
 
 void validate_structure(const StructureOptions& p) {
   const Rules rules("analysis.structure");
-  rules.at_least(static_cast<std::int64_t>(p.max_frames), 0, "frames");
   const auto steps = [&](double longest, double step, const char* longest_key,
                          const char* step_key) {
-    rules.positive(longest, longest_key);
-    rules.positive(step, step_key);
     rules.require(step <= longest && longest / step <= 1e4, step_key,
                   fmt::format("is {}, but must lie between {} and {} = {}, a ten-thousandth of it "
                               "and all of it",

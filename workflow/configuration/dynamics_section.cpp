@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "workflow/configuration/soft_particles.h"
 
 namespace vitrel {
@@ -9,6 +12,7 @@ namespace {
 
 using Style = FieldVisitor::TableStyle;
 
+constexpr Bounds poissons_bounds{-1, 0.5, true};
 constexpr const char* kind_names[] = {"newtonian", "brownian"};
 constexpr const char* on_overlap_names[] = {"stop", "correct"};
 constexpr const char* temperature_names[] = {"total", "relative"};
@@ -23,11 +27,15 @@ void describe_material(MaterialParameters& p, FieldVisitor& visit) {
                    [&](FieldVisitor& in, double& inner) { in.quantity(field, inner); });
   };
   visit.field({"species", "", "Name of the species."}, p.species);
-  quantity({"stiffness", "N/m", "Of law = \"linear_dashpot\"."}, p.stiffness, 1e6);
-  quantity({"damping", "kg/s", "Of law = \"linear_dashpot\"."}, p.damping, 0);
-  quantity({"youngs_modulus", "Pa", "Of law = \"viscoelastic\"."}, p.youngs_modulus, 1e9);
-  visit.optional({"poissons_ratio", "", "Of law = \"viscoelastic\"."}, p.poissons_ratio, 0.4);
-  quantity({"dissipative_time", "s", "Of law = \"viscoelastic\"."}, p.dissipative_time, 0);
+  quantity({"stiffness", "N/m", "Of law = \"linear_dashpot\".", bounds::positive}, p.stiffness,
+           1e6);
+  quantity({"damping", "kg/s", "Of law = \"linear_dashpot\".", bounds::not_negative}, p.damping, 0);
+  quantity({"youngs_modulus", "Pa", "Of law = \"viscoelastic\".", bounds::positive},
+           p.youngs_modulus, 1e9);
+  visit.optional({"poissons_ratio", "", "Of law = \"viscoelastic\".", poissons_bounds},
+                 p.poissons_ratio, 0.4);
+  quantity({"dissipative_time", "s", "Of law = \"viscoelastic\".", bounds::not_negative},
+           p.dissipative_time, 0);
 }
 
 /// Whether contacts at the thermal speed are such that coefficients can be had.
@@ -45,17 +53,6 @@ void validate_impact(const ContactParameters& p, const Rules& rules) {
       fmt::format("is so small that particles pass through each other at the thermal speed "
                   "(2 R/X = {:.3g}, at least {:g}); raise it",
                   2 * p.radius / scales.length, min_scaled_distance));
-}
-
-void validate_force(const ContactParameters& p, const Rules& rules) {
-  rules.positive(p.linear_dashpot.stiffness, "stiffness");
-  rules.not_negative(p.linear_dashpot.damping, "damping");
-  rules.positive(p.viscoelastic.youngs_modulus, "youngs_modulus");
-  const double ratio = p.viscoelastic.poissons_ratio;
-  rules.require(ratio > -1 && ratio <= 0.5, "poissons_ratio",
-                fmt::format("is {}, but must lie above -1 and not above 0.5", show(ratio)));
-  rules.not_negative(p.viscoelastic.dissipative_time, "dissipative_time");
-  validate_impact(p, rules);
 }
 
 void validate_materials(const Parameters& parameters) {
@@ -80,8 +77,17 @@ void validate_materials(const Parameters& parameters) {
       other_law(material.stiffness, "stiffness");
       other_law(material.damping, "damping");
     }
-    validate_force(of_material(p, material), rules);
+    validate_impact(of_material(p, material), rules);
   }
+}
+
+/// Of particles of size 1, within a factor of some ten; infinite of particles at rest.
+double time_between_collisions(const Parameters& parameters) {
+  double fastest = 0;
+  for (const Species& species : parameters.species)
+    fastest = std::max(
+        fastest, std::sqrt(species.initial_temperature.value_or(1) / species.mass.value_or(1)));
+  return 0.3 / (parameters.system.packing_fraction * fastest);
 }
 
 }  // namespace
@@ -92,29 +98,35 @@ const char* law_name(ContactParameters::Law law) {
 
 void describe_contact(ContactParameters& p, FieldVisitor& visit) {
   using Law = ContactParameters::Law;
-  visit.quantity({"radius", "m", "Radius of a particle of size 1."}, p.radius);
+  visit.quantity({"radius", "m", "Radius of a particle of size 1.", bounds::length}, p.radius);
   visit.quantity(
       {"density", "kg/m^3",
-       "Density. A particle of mass 1 has the mass of a sphere of this radius and density."},
+       "Density. A particle of mass 1 has the mass of a sphere of this radius and density.",
+       bounds::positive},
       p.density);
-  visit.quantity(
-      {"thermal_speed", "m/s", "Thermal speed √(kT/m) of a particle of mass 1 at kT = 1."},
-      p.thermal_speed);
+  visit.quantity({"thermal_speed", "m/s",
+                  "Thermal speed √(kT/m) of a particle of mass 1 at kT = 1.", bounds::positive},
+                 p.thermal_speed);
   visit.field(
       {"law", "",
        "Contact force as a function of the compression ξ: spring and dashpot, k ξ + γ dξ/dt, or "
        "viscoelastic spheres, ρ (ξ + (3/2) A dξ/dt) √ξ with ρ = 2 Y √R_eff/(3 (1 − ν²))."},
       p.law, law_names);
   visit.when(p.law == Law::linear_dashpot, "law = \"linear_dashpot\"", [&](FieldVisitor& in) {
-    in.quantity({"stiffness", "N/m", "Spring constant k."}, p.linear_dashpot.stiffness);
-    in.quantity({"damping", "kg/s", "Damping γ of the dashpot; \"0 kg/s\" for elastic particles."},
+    in.quantity({"stiffness", "N/m", "Spring constant k.", bounds::positive},
+                p.linear_dashpot.stiffness);
+    in.quantity({"damping", "kg/s", "Damping γ of the dashpot; \"0 kg/s\" for elastic particles.",
+                 bounds::not_negative},
                 p.linear_dashpot.damping);
   });
   visit.when(p.law == Law::viscoelastic, "law = \"viscoelastic\"", [&](FieldVisitor& in) {
-    in.quantity({"youngs_modulus", "Pa", "Young's modulus Y."}, p.viscoelastic.youngs_modulus);
-    in.field({"poissons_ratio", "", "Poisson's ratio ν."}, p.viscoelastic.poissons_ratio);
+    in.quantity({"youngs_modulus", "Pa", "Young's modulus Y.", bounds::positive},
+                p.viscoelastic.youngs_modulus);
+    in.field({"poissons_ratio", "", "Poisson's ratio ν.", poissons_bounds},
+             p.viscoelastic.poissons_ratio);
     in.quantity({"dissipative_time", "s",
-                 "Dissipative time A of the material; \"0 s\" for elastic particles."},
+                 "Dissipative time A of the material; \"0 s\" for elastic particles.",
+                 bounds::not_negative},
                 p.viscoelastic.dissipative_time);
   });
   visit.field({"coefficients", "",
@@ -144,9 +156,9 @@ void describe_initial_velocities(DynamicsParameters& p, FieldVisitor& visit) {
   visit.value_or_table(
       field, is_split, [&](FieldVisitor& in) { in.field(field, kind, velocity_names); },
       [&](FieldVisitor& in) {
-        in.field(
-            {"translation", "", "Share of the energy in translation; the rest is in rotation."},
-            p.translation_share);
+        in.field({"translation", "", "Share of the energy in translation; the rest is in rotation.",
+                  bounds::share},
+                 p.translation_share);
       });
   p.initial_velocities = is_split ? InitialVelocities::split : kind;
 }
@@ -158,11 +170,14 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
               p.kind, kind_names);
   visit.field({"brownian_step", "time",
                "Time τ_B between draws of the velocities. A free particle diffuses with D = kT "
-               "τ_B/(2 m). Brownian dynamics only."},
+               "τ_B/(2 m). Brownian dynamics only.",
+               bounds::time},
               p.brownian_step);
-  visit.field({"equilibration", "time", "Duration of the run before sampling starts, at time 0."},
+  visit.field({"equilibration", "time", "Duration of the run before sampling starts, at time 0.",
+               bounds::time_or_none},
               p.equilibration);
-  visit.field({"duration", "time", "Duration of the sampled part of the run."}, p.duration);
+  visit.field({"duration", "time", "Duration of the sampled part of the run.", bounds::time},
+              p.duration);
   describe_collisions(p, visit);
   visit.field({"on_overlap", "",
                "Action if two particles overlap: stop with exit code 4, or apply and count the "
@@ -191,23 +206,32 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
                  });
 }
 
-void validate_dynamics(const DynamicsParameters& p) {
+/// The number of events, and the resolution of times in doubles, are bounded.
+void validate_times(const Parameters& parameters) {
+  constexpr double max_flights = 1e10, max_steps = 1e12;
+  const DynamicsParameters& p = parameters.dynamics;
   const Rules rules("dynamics");
-  rules.positive(p.brownian_step, "brownian_step");
-  rules.not_negative(p.equilibration, "equilibration");
-  rules.positive(p.duration, "duration");
-  rules.require(p.translation_share >= 0 && p.translation_share <= 1,
-                "initial_velocities.translation",
-                fmt::format("is {}, but must lie between 0 and 1", show(p.translation_share)));
+  const double longest = max_flights * time_between_collisions(parameters);
+  for (const auto& [key, time] :
+       {std::pair("equilibration", p.equilibration), {"duration", p.duration}})
+    rules.require(time <= longest, key,
+                  fmt::format("is {}, but must not exceed {:.3g}, some {:g} times the time between "
+                              "collisions: longer ones are not resolved",
+                              show(time), longest, max_flights));
+  const auto require_few = [&](double interval, const char* key) {
+    const double steps = (p.equilibration + p.duration) / interval;
+    rules.require(steps <= max_steps, key,
+                  fmt::format("is {}, which makes {:.3g} steps; at most {:g} are possible",
+                              show(interval), steps, max_steps));
+  };
+  if (p.kind == DynamicsParameters::Kind::brownian) require_few(p.brownian_step, "brownian_step");
+  if (p.driving) require_few(p.driving->interval, "driving.interval");
 }
 
 void validate_contact(const Parameters& parameters) {
   const ContactParameters& p = *parameters.dynamics.contact;
   const Rules rules("dynamics.contact");
-  rules.positive(p.radius, "radius");
-  rules.positive(p.density, "density");
-  rules.positive(p.thermal_speed, "thermal_speed");
-  validate_force(p, rules);
+  validate_impact(p, rules);
   validate_materials(parameters);
   for (std::size_t k = 0; k < parameters.species.size(); ++k)
     if (!is_round(parameters.species[k]))

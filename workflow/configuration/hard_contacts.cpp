@@ -12,6 +12,8 @@ namespace {
 
 using Form = RestitutionParameters::Form;
 
+constexpr Bounds restitution_bounds{0, 1, false, false, "lie between 0 and 1 (elastic)"};
+constexpr Bounds friction_bounds{.low = 0, .words = "be 0 (smooth) or above, or inf (no slip)"};
 constexpr const char* form_names[] = {"viscoelastic", "table"};
 
 NormalRestitution normal_restitution(const RestitutionParameters& p) {
@@ -44,15 +46,20 @@ void describe_restitution(const Field& field, RestitutionParameters& p, FieldVis
                    "table."},
                   form, form_names);
         in.when(form == 0, "form = \"viscoelastic\"", [&](FieldVisitor& of) {
-          of.field({"value", "", "Coefficient at this speed; it tends to 1 for slow impacts."},
+          of.field({"value",
+                    "",
+                    "Coefficient at this speed; it tends to 1 for slow impacts.",
+                    {0, 1, true, true, "lie above 0 and below 1"}},
                    p.value);
-          of.field({"speed", "speed", "The speed."}, p.speed);
+          of.field({"speed", "speed", "The speed.", bounds::positive}, p.speed);
         });
         in.when(form == 1, "form = \"table\"", [&](FieldVisitor& of) {
-          of.field({"speeds", "speed", "Speeds in ascending order."}, p.speeds);
-          of.field({"values", "",
-                    "Coefficients at these speeds: linear between them, constant outside."},
-                   p.values);
+          of.field({"speeds", "speed", "Speeds in ascending order.", bounds::not_negative},
+                   p.speeds);
+          of.field(
+              {"values", "", "Coefficients at these speeds: linear between them, constant outside.",
+               restitution_bounds},
+              p.values);
         });
       });
   p.form = !is_table ? Form::constant : form == 0 ? Form::viscoelastic : Form::table;
@@ -61,49 +68,27 @@ void describe_restitution(const Field& field, RestitutionParameters& p, FieldVis
 void describe_pair(PairLawParameters& p, FieldVisitor& visit) {
   visit.field({"first", "", "Name of a species."}, p.first);
   visit.field({"second", "", "Name of the other species, or of the same."}, p.second);
-  const Field restitution{"restitution", "", "As for all pairs."};
+  const Field restitution{"restitution", "", "As for all pairs.", restitution_bounds};
   visit.optional(restitution, p.restitution, RestitutionParameters(),
                  [&](FieldVisitor& in, RestitutionParameters& inner) {
                    describe_restitution(restitution, inner, in);
                  });
-  visit.optional({"friction", "", "As for all pairs."}, p.friction, 0.0);
-  visit.optional({"tangential_restitution", "", "As for all pairs."}, p.tangential_restitution,
-                 0.0);
+  visit.optional({"friction", "", "As for all pairs.", friction_bounds}, p.friction, 0.0);
+  visit.optional({"tangential_restitution", "", "As for all pairs.", {-1, 1}},
+                 p.tangential_restitution, 0.0);
 }
 
 void validate_restitution(const RestitutionParameters& p, const std::string& path,
                           const std::string& key) {
   const Rules rules(path);
-  const auto require_value = [&](double e, const std::string& where) {
-    rules.require(e >= 0 && e <= 1, where,
-                  fmt::format("is {}, but must lie between 0 and 1 (elastic)", show(e)));
-  };
-  if (p.form == Form::constant) require_value(p.value, key);
-  if (p.form == Form::viscoelastic) {
-    rules.require(p.value > 0 && p.value < 1, key + ".value",
-                  fmt::format("is {}, but must lie above 0 and below 1", show(p.value)));
-    rules.positive(p.speed, key + ".speed");
-  }
   if (p.form == Form::table) {
     rules.require(!p.speeds.empty() && p.speeds.size() == p.values.size(), key + ".values",
                   fmt::format("has {} numbers, but must have as many as {}.speeds, which has {}, "
                               "and at least one",
                               p.values.size(), key, p.speeds.size()));
-    rules.require(std::ranges::is_sorted(p.speeds, std::less_equal()) && p.speeds.front() >= 0 &&
-                      std::isfinite(p.speeds.back()),
-                  key + ".speeds", "must hold finite numbers from 0 on, each above the one before");
-    for (const double e : p.values) require_value(e, key + ".values");
+    rules.require(std::ranges::is_sorted(p.speeds, std::less_equal()), key + ".speeds",
+                  "must hold numbers from 0 on, each above the one before");
   }
-}
-
-void validate_friction(double friction, double tangential_restitution, const std::string& path) {
-  const Rules rules(path);
-  rules.require(
-      friction >= 0, "friction",
-      fmt::format("is {}, but must be 0 (smooth) or above, or inf (no slip)", show(friction)));
-  rules.require(tangential_restitution >= -1 && tangential_restitution <= 1,
-                "tangential_restitution",
-                fmt::format("is {}, but must lie between -1 and 1", show(tangential_restitution)));
 }
 
 void validate_pairs(const Parameters& parameters) {
@@ -120,7 +105,6 @@ void validate_pairs(const Parameters& parameters) {
           std::minmax(pair.first, pair.second) != std::minmax(pairs[j].first, pairs[j].second),
           "second", fmt::format("makes the same pair as dynamics.pair.{}", j));
     if (pair.restitution) validate_restitution(*pair.restitution, path, "restitution");
-    validate_friction(pair.friction.value_or(0), pair.tangential_restitution.value_or(0), path);
   }
 }
 
@@ -158,36 +142,42 @@ bool is_rough(const DynamicsParameters& p, const PairLawParameters& pair) {
 void describe_collisions(DynamicsParameters& p, FieldVisitor& visit) {
   describe_restitution({"restitution", "",
                         "Coefficient of normal restitution, from 0 to 1 (elastic). As a table, a "
-                        "function of the speed."},
+                        "function of the speed.",
+                        restitution_bounds},
                        p.restitution, visit);
   visit.field({"friction", "",
                "Coulomb's friction coefficient μ: 0 for smooth particles, inf for contacts that do "
-               "not slip. Where there is friction, round particles spin, too."},
+               "not slip. Where there is friction, round particles spin, too.",
+               friction_bounds},
               p.friction);
-  visit.field({"tangential_restitution", "",
+  visit.field({"tangential_restitution",
+               "",
                "Coefficient β of rough contacts that do not slip: the tangential speed of the "
-               "surfaces remains (-1), vanishes (0) or is reversed (1)."},
+               "surfaces remains (-1), vanishes (0) or is reversed (1).",
+               {-1, 1}},
               p.tangential_restitution);
   visit.list({"pair", "",
               "A pair of species whose contacts are different. What is not given is as for all "
               "pairs."},
              p.pairs, describe_pair);
-  visit.field(
-      {"contact_duration", "time",
-       "Time t_c of the contact-time model: a collision that comes sooner after the one "
-       "before of either particle is elastic and smooth, so that inelastic collapse does "
-       "not stop the run; 0 for none. It should be well below the time between collisions."},
-      p.contact_duration);
+  visit.field({"contact_duration", "time",
+               "Time t_c of the contact-time model: a collision that comes sooner after the one "
+               "before of either particle is elastic and smooth, so that inelastic collapse does "
+               "not stop the run; 0 for none. It should be well below the time between collisions.",
+               bounds::time_or_none},
+              p.contact_duration);
   const Field driving{"driving", "",
                       "Random kicks of all particles, which conserve the momentum: homogeneous "
                       "heating, for steady states of inelastic particles."};
   visit.optional(driving, p.driving, Driving(), [&](FieldVisitor& in, Driving& inner) {
     in.table(driving, FieldVisitor::TableStyle::inline_table, [&](FieldVisitor& of) {
       of.field({"interval", "time",
-                "Time between kicks. It should be well below the time between collisions."},
+                "Time between kicks. It should be well below the time between collisions.",
+                bounds::time},
                inner.interval);
-      of.field({"power", "kT/time", "Mean energy that a particle gains per unit of time."},
-               inner.power);
+      of.field(
+          {"power", "kT/time", "Mean energy that a particle gains per unit of time.", {1e-20, 1e9}},
+          inner.power);
     });
   });
 }
@@ -196,15 +186,10 @@ void validate_collisions(const Parameters& parameters) {
   const DynamicsParameters& p = parameters.dynamics;
   const Rules rules("dynamics");
   validate_restitution(p.restitution, "dynamics", "restitution");
-  validate_friction(p.friction, p.tangential_restitution, "dynamics");
   validate_pairs(parameters);
-  rules.not_negative(p.contact_duration, "contact_duration");
   if (!p.driving) return;
   rules.require(p.kind == DynamicsParameters::Kind::newtonian, "driving",
                 "is for kind = \"newtonian\"; Brownian dynamics draws all velocities");
-  const Rules driving("dynamics.driving");
-  driving.positive(p.driving->interval, "interval");
-  driving.positive(p.driving->power, "power");
 }
 
 ContactLaws contact_laws(const Parameters& parameters) {

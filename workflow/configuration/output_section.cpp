@@ -16,33 +16,37 @@ void describe_samples(OutputParameters& p, FieldVisitor& visit) {
     in.optional(
         {"interval", "time",
          "Time between samples. By default a 200th of dynamics.duration, but at least 0.1 (or "
-         "all of a shorter run)."},
+         "all of a shorter run).",
+         bounds::time},
         p.interval, 0.1);
   });
   visit.when(p.spacing == Spacing::logarithmic, "spacing = \"logarithmic\"", [&](FieldVisitor& in) {
-    in.field({"first", "time", "First sample after the one at time 0."}, p.first);
-    in.field({"per_decade", "", "Samples per factor of ten in time."}, p.per_decade);
+    in.field({"first", "time", "First sample after the one at time 0.", bounds::time}, p.first);
+    in.field({"per_decade", "", "Samples per factor of ten in time.", bounds::at_least_one},
+             p.per_decade);
   });
 }
 
 void describe_correlations(CorrelationParameters& p, FieldVisitor& visit) {
   visit.field(
-      {"interval", "time", "Time between correlated states; this is the shortest time difference."},
+      {"interval", "time", "Time between correlated states; this is the shortest time difference.",
+       bounds::time},
       p.interval);
   visit.optional({"longest_lag", "time",
                   "Longest time difference. The default is half the duration; a run that is made "
-                  "longer keeps that of its beginning."},
+                  "longer keeps that of its beginning.",
+                  bounds::time},
                  p.longest_lag, 50.0);
   visit.field({"wave_numbers", "1/length",
                "Wave numbers q of the self-intermediate scattering functions F_s(q, t). If empty: "
                "approximately that of the main peak of the structure factor, 2π √(2ρ/√3) with the "
-               "number density ρ."},
+               "number density ρ.",
+               bounds::positive},
               p.wave_numbers);
 }
 
 void validate_correlations(const CorrelationParameters& p, double duration) {
   const Rules rules("output.correlations");
-  rules.positive(p.interval, "interval");
   rules.require(p.interval <= duration && duration / p.interval <= 1e12, "interval",
                 fmt::format("is {}, but must lie between 1e-12 of dynamics.duration = {} and all "
                             "of it",
@@ -52,8 +56,6 @@ void validate_correlations(const CorrelationParameters& p, double duration) {
                   fmt::format("is {}, but must lie between the interval {} and dynamics.duration = "
                               "{}",
                               show(*p.longest_lag), show(p.interval), show(duration)));
-  for (std::size_t k = 0; k < p.wave_numbers.size(); ++k)
-    rules.positive(p.wave_numbers[k], fmt::format("wave_numbers.{}", k));
 }
 
 }  // namespace
@@ -77,7 +79,8 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
                             section_of(inner, describe_correlations));
                  });
   visit.field({"checkpoint_interval", "seconds of wall time",
-               "Time between checkpoints, from which an interrupted preparation or run continues."},
+               "Time between checkpoints, from which an interrupted preparation or run continues.",
+               bounds::time_or_none},
               p.checkpoint_interval);
 }
 
@@ -86,7 +89,6 @@ void validate_output(const Parameters& parameters) {
   const Rules samples("output.samples");
   const double duration = parameters.dynamics.duration;
   const auto within = [&](double value, const char* key) {
-    samples.positive(value, key);
     samples.require(value <= duration, key,
                     fmt::format("is {}, but must not exceed dynamics.duration = {}", show(value),
                                 show(duration)));
@@ -99,10 +101,11 @@ void validate_output(const Parameters& parameters) {
                                 show(interval), duration / interval));
   } else {
     within(p.first, "first");
-    samples.at_least(p.per_decade, 1, "per_decade");
+    samples.require(duration / p.first <= 1e12, "first",
+                    fmt::format("is {}, but must be at least 1e-12 of dynamics.duration = {}",
+                                show(p.first), show(duration)));
   }
   if (p.correlations) validate_correlations(*p.correlations, duration);
-  Rules("output").not_negative(p.checkpoint_interval, "checkpoint_interval");
 }
 
 }  // namespace vitrel

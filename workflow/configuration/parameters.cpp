@@ -167,12 +167,14 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
 }
 
 void validate(const Parameters& parameters) {
+  Parameters copy = parameters;
+  check_bounds(fields(copy));
   validate_system(parameters.system);
   validate_species(parameters.species, parameters.system.dimension);
   const PackingBound bound = packing_bound(parameters.species, parameters.system.dimension);
   Rules("system").packing_fraction(parameters.system.packing_fraction, "packing_fraction", bound);
   validate_stages(parameters.stages, parameters.system, bound);
-  validate_dynamics(parameters.dynamics);
+  validate_times(parameters);
   validate_collisions(parameters);
   if (parameters.dynamics.contact) validate_contact(parameters);
   validate_output(parameters);

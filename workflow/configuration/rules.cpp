@@ -26,10 +26,6 @@ void Rules::not_negative(double value, const std::string& key) const {
           fmt::format("is {}, but must be 0 or more", show(value)));
 }
 
-void Rules::at_least(std::int64_t value, std::int64_t least, const std::string& key) const {
-  require(value >= least, key, fmt::format("is {}, but must be at least {}", value, least));
-}
-
 void Rules::packing_fraction(double value, const std::string& key,
                              const PackingBound& bound) const {
   require(

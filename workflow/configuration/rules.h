@@ -24,7 +24,6 @@ class Rules {
   void require(bool holds, const std::string& key, const std::string& complaint) const;
   void positive(double value, const std::string& key) const;
   void not_negative(double value, const std::string& key) const;
-  void at_least(std::int64_t value, std::int64_t least, const std::string& key) const;
   /// Above 0 and below the bound.
   void packing_fraction(double value, const std::string& key, const PackingBound& bound) const;
 

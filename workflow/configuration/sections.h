@@ -32,7 +32,7 @@ void describe_collisions(DynamicsParameters& p, FieldVisitor& visit);
 void validate_collisions(const Parameters& parameters);
 void describe_contact(ContactParameters& p, FieldVisitor& visit);
 void describe_materials(ContactParameters& p, FieldVisitor& visit);
-void validate_dynamics(const DynamicsParameters& p);
+void validate_times(const Parameters& parameters);
 /// Of soft particles, which the species and the dynamics must fit.
 void validate_contact(const Parameters& parameters);
 

@@ -82,28 +82,31 @@ void validate_box_aspect(const SystemParameters& p, const Rules& rules) {
       ratios.size() == 1 || ratios.size() == several, "box_aspect",
       fmt::format("has {} entries, but must be {}", ratios.size(),
                   p.dimension == 2 ? "one number, L_y/L_x" : "one number or [L_y/L_x, L_z/L_x]"));
-  for (const double ratio : ratios)
-    rules.require(ratio >= 0.001 && ratio <= 1000, "box_aspect",
-                  fmt::format("is {}, but must lie between 0.001 and 1000", show(ratio)));
 }
 
 }  // namespace
 
 void describe_system(SystemParameters& p, FieldVisitor& visit) {
-  visit.field({"dimension", "", "Space dimensions: 2 for ellipses, 3 for ellipsoids."},
+  visit.field({"dimension",
+               "",
+               "Space dimensions: 2 for ellipses, 3 for ellipsoids.",
+               {2, 3, false, false, "be 2 or 3"}},
               p.dimension);
-  visit.field({"particles", "", "Number of particles."}, p.particles);
+  visit.field({"particles", "", "Number of particles.", {1, 100'000'000}}, p.particles);
   visit.field(
       {"packing_fraction", "",
        "Fraction of the box covered by particles: the sum of π a b divided by the area (of "
        "4π/3 a b c divided by the volume). It applies to the end of the preparation unless a "
-       "reduced pressure ends it."},
+       "reduced pressure ends it.",
+       bounds::packing_fraction},
       p.packing_fraction);
   visit.field({"seed", "", "Seed of all random numbers."}, p.seed);
   visit.number_or_numbers(
-      {"box_aspect", "",
+      {"box_aspect",
+       "",
        "Ratio of height to width of the periodic box, L_y/L_x. In three dimensions [L_y/L_x, "
-       "L_z/L_x], or one number for both. A lattice changes it so that whole cells fit."},
+       "L_z/L_x], or one number for both. A lattice changes it so that whole cells fit.",
+       {0.001, 1000}},
       p.box_aspect);
 }
 
@@ -111,7 +114,8 @@ void describe_species(Species& p, FieldVisitor& visit) {
   visit.field({"name", "", "Name in files and tables."}, p.name);
   visit.field({"fraction", "",
                "Fraction of all particles; the fractions add up to 1. Counts are rounded by the "
-               "largest-remainder method."},
+               "largest-remainder method.",
+               bounds::share_above_none},
               p.fraction);
   describe_optional_distribution(
       {"aspect_ratio", "",
@@ -148,21 +152,18 @@ void describe_species(Species& p, FieldVisitor& visit) {
                  });
   visit.optional({"mass", "mass",
                   "Mass of every particle of this species. The default is a b (a b c), which gives "
-                  "all species the same density."},
+                  "all species the same density.",
+                  bounds::mass},
                  p.mass, 1.0);
   visit.optional({"initial_temperature", "kT",
                   "Temperature of the velocities that are drawn at the start of a run; the default "
-                  "is 1. A species at 0 only drifts, so that the net momentum is 0."},
+                  "is 1. A species at 0 only drifts, so that the net momentum is 0.",
+                  bounds::not_negative},
                  p.initial_temperature, 1.0);
 }
 
 void validate_system(const SystemParameters& p) {
-  const Rules rules("system");
-  rules.require(p.dimension == 2 || p.dimension == 3, "dimension",
-                fmt::format("is {}, but must be 2 or 3", p.dimension));
-  rules.require(p.particles >= 1 && p.particles <= 100'000'000, "particles",
-                fmt::format("is {}, but must lie between 1 and 100000000", p.particles));
-  validate_box_aspect(p, rules);
+  validate_box_aspect(p, Rules("system"));
 }
 
 void validate_species(const std::vector<Species>& species, int dimension) {
@@ -176,11 +177,7 @@ void validate_species(const std::vector<Species>& species, int dimension) {
     const Species& p = species[i];
     rules.require(!p.name.empty(), "name", "is empty, but a species needs a name");
     names.push_back(p.name);
-    rules.require(p.fraction > 0 && p.fraction <= 1, "fraction",
-                  fmt::format("is {}, but must lie above 0 and not above 1", show(p.fraction)));
     validate_shape(p, dimension, path);
-    if (p.mass) rules.positive(*p.mass, "mass");
-    if (p.initial_temperature) rules.not_negative(*p.initial_temperature, "initial_temperature");
     sum += p.fraction;
   }
   if (const auto conflict = species_name_conflict(names))

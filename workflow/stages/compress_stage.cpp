@@ -13,7 +13,8 @@ namespace {
 
 void describe_pressure(CompressStage& stage, FieldVisitor& visit) {
   visit.field({"pressure", "kT/area",
-               "βP, in units of the inverse unit of area (in three dimensions of volume)."},
+               "βP, in units of the inverse unit of area (in three dimensions of volume).",
+               bounds::positive},
               stage.pressure);
 }
 
@@ -38,12 +39,6 @@ std::vector<StageField<CompressStage>> CompressStage::fields() {
           {"pressure", describe_pressure},
           {"box", describe_box},
           {"sweeps", describe_sweeps}};
-}
-
-void CompressStage::validate(const Rules& rules, int /*dimension*/) const {
-  rules.require(max_sweeps >= 1, "max_sweeps", "is 0, but must be at least 1");
-  rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
-  rules.positive(pressure, "pressure");
 }
 
 std::string CompressStage::description() const {

@@ -25,7 +25,6 @@ struct CompressStage : StageDefaults {
   std::uint64_t sweeps = CompressionOptions().sweeps;  ///< without one
 
   static std::vector<StageField<CompressStage>> fields();
-  void validate(const Rules& rules, int dimension) const;
   StageEnding ending() const { return ending_known_if(packing_fraction.has_value()); }
   std::string description() const;
   StageReport advance(CompressionState& state, const StageContext& context) const;

@@ -10,9 +10,11 @@ namespace vitrel {
 namespace {
 
 void describe_retries(GrowStage& stage, FieldVisitor& visit) {
-  visit.field({"retries", "",
+  visit.field({"retries",
+               "",
                "If the particles jam below the packing fraction, all lengths shrink by a tenth and "
-               "grow again at half the rate, up to so many times."},
+               "grow again at half the rate, up to so many times.",
+               {0, 30}},
               stage.retries);
 }
 
@@ -23,13 +25,6 @@ std::vector<StageField<GrowStage>> GrowStage::fields() {
           {"reduced_pressure", describe_reduced_pressure},
           {"growth_rate", describe_growth_rate},
           {"retries", describe_retries}};
-}
-
-void GrowStage::validate(const Rules& rules, int /*dimension*/) const {
-  validate_growth_rate(growth_rate, rules);
-  validate_reduced_pressure(reduced_pressure, rules);
-  rules.require(retries >= 0 && retries <= 30, "retries",
-                fmt::format("is {}, but must lie between 0 and 30", retries));
 }
 
 StageReport GrowStage::advance(GrowthState& state, const StageContext& context) const {

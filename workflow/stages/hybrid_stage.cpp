@@ -9,9 +9,11 @@ namespace vitrel {
 namespace {
 
 void describe_stretch_sweeps(HybridStage& stage, FieldVisitor& visit) {
-  visit.field({"stretch_sweeps", "",
+  visit.field({"stretch_sweeps",
+               "",
                "Monte Carlo sweeps after every interval of growth. An interval ends when all "
-               "lengths have grown by 1 %, or by less at high pressure."},
+               "lengths have grown by 1 %, or by less at high pressure.",
+               {.low = 1, .words = "be at least 1; without sweeps the method is \"grow\""}},
               stage.stretch_sweeps);
 }
 
@@ -24,14 +26,6 @@ std::vector<StageField<HybridStage>> HybridStage::fields() {
           {"stretch_sweeps", describe_stretch_sweeps},
           {"moves", describe_moves},
           {"exchanges", describe_exchanges}};
-}
-
-void HybridStage::validate(const Rules& rules, int /*dimension*/) const {
-  validate_exchanges(*this, rules);
-  rules.require(stretch_sweeps >= 1, "stretch_sweeps",
-                "is 0, but must be at least 1; without sweeps the method is \"grow\"");
-  validate_growth_rate(growth_rate, rules);
-  validate_reduced_pressure(reduced_pressure, rules);
 }
 
 StageReport HybridStage::advance(HybridState& state, const StageContext& context) const {

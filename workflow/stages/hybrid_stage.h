@@ -20,7 +20,6 @@ struct HybridStage : GrowthGoal<HybridStage> {
   ExchangeOptions exchanges;
 
   static std::vector<StageField<HybridStage>> fields();
-  void validate(const Rules& rules, int dimension) const;
   StageReport advance(HybridState& state, const StageContext& context) const;
   void record(const HybridState& state, StageRecord& record) const;
 

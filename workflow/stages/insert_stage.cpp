@@ -18,7 +18,8 @@ namespace {
 constexpr double easy_insertion = 0.3, easy_insertion_of_solids = 0.01;
 
 void describe_attempts(InsertStage& stage, FieldVisitor& visit) {
-  visit.field({"attempts", "", "Random positions tried for one particle before the stage fails."},
+  visit.field({"attempts", "", "Random positions tried for one particle before the stage fails.",
+               bounds::at_least_one},
               stage.attempts);
 }
 
@@ -80,7 +81,6 @@ std::vector<StageField<InsertStage>> InsertStage::fields() {
 }
 
 void InsertStage::validate(const Rules& rules, int dimension) const {
-  rules.require(attempts >= 1, "attempts", "is 0, but must be at least 1");
   rules.require(dimension == 3 || orientations != Orientations::planar, "orientations",
                 "is \"planar\", which has a meaning only with dimension = 3");
   if (orientations != Orientations::tensor) return;

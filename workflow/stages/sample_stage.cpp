@@ -30,14 +30,11 @@ std::vector<StageField<SampleStage>> SampleStage::fields() {
 }
 
 void SampleStage::validate(const Rules& rules, int /*dimension*/) const {
-  rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
-  rules.require(max_sweeps >= 1, "max_sweeps", "is 0, but must be at least 1");
   const SampleStage defaults;
   rules.require(decorrelations == 0 || sweeps == defaults.sweeps, "sweeps",
                 "has no effect beside decorrelations; give max_sweeps instead");
   rules.require(decorrelations > 0 || max_sweeps == defaults.max_sweeps, "max_sweeps",
                 "has no effect without decorrelations; give sweeps instead");
-  validate_exchanges(*this, rules);
 }
 
 std::string SampleStage::description() const {

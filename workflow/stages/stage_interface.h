@@ -16,7 +16,7 @@
 ///     method, summary       its name in the parameter file, and a description
 ///     State                 its progress; together with the configuration, all it needs to continue
 ///     fields()              its keys in the parameter file (stage_fields.h)
-///     validate              throws BadValue for an invalid option, or one that does not suit the system
+///     validate              throws BadValue for options that do not suit each other or the system
 ///     ending                the kind of its end
 ///     advance               runs it, in both dimensions
 ///     each_item             names the items of its state in a checkpoint
@@ -29,6 +29,7 @@ namespace vitrel {
 template <int Dim>
 struct Configuration;
 class FieldVisitor;
+class Rules;
 struct StageRecord;
 
 /// The state of a stage that cannot be continued and always starts again.
@@ -70,6 +71,7 @@ struct StageDefaults {
   double default_packing_fraction(const SystemParameters& system) const {
     return system.packing_fraction;
   }
+  void validate(const Rules&, int /*dimension*/) const {}
   /// A short description with these options; empty if the method and the packing fraction say all.
   std::string description() const { return {}; }
   template <class State, class Visit>

@@ -12,10 +12,6 @@ std::vector<StageField<SwellStage>> SwellStage::fields() {
   return {{"packing_fraction", describe_packing_fraction}, {"max_sweeps", describe_max_sweeps}};
 }
 
-void SwellStage::validate(const Rules& rules, int /*dimension*/) const {
-  rules.require(max_sweeps >= 1, "max_sweeps", "is 0, but must be at least 1");
-}
-
 StageReport SwellStage::advance(SwellingState& state, const StageContext& context) const {
   const SwellingOptions options{context.packing_fraction, max_sweeps, context.threads};
   return std::visit(
