@@ -88,9 +88,12 @@ class GapBatch<Ellipse> {
     const Batch weight1 = 3. * x + y, weight2 = x + 3. * y;
     nx = weight1 * wx1 + weight2 * wx2;
     ny = weight1 * wy1 + weight2 * wy2;
-    const Batch scale = 1. / sqrt(nx * nx + ny * ny);
-    nx *= scale;
-    ny *= scale;
+    const Batch square = nx * nx + ny * ny;
+    const Batch scale = 1. / sqrt(square);
+    // Where the centres coincide, any axis gives a lower bound.
+    const auto coincide = square == Batch(0.);
+    nx = select(coincide, Batch(1.), nx * scale);
+    ny = select(coincide, Batch(0.), ny * scale);
   }
 
   using Numbers = detail::BatchBuffer<lanes>;

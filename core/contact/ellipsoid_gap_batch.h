@@ -72,7 +72,13 @@ class GapBatch<Ellipsoid> {
         (yy * zz - yz * yz) * d.x + (xz * yz - xy * zz) * d.y + (xy * yz - xz * yy) * d.z,
         (xz * yz - xy * zz) * d.x + (xx * zz - xz * xz) * d.y + (xy * xz - xx * yz) * d.z,
         (xy * yz - xz * yy) * d.x + (xy * xz - xx * yz) * d.y + (xx * yy - xy * xy) * d.z};
-    return detail::times(SimdBatch(1. / sqrt(dot(w, w))), w);
+    const SimdBatch square = dot(w, w);
+    const detail::BatchVec3 axis = detail::times(SimdBatch(1. / sqrt(square)), w);
+    // Where the centres coincide, any axis gives a lower bound.
+    const auto coincide = square == SimdBatch(0.);
+    const SimdBatch zero = 0.;
+    return {select(coincide, SimdBatch(1.), axis.x), select(coincide, zero, axis.y),
+            select(coincide, zero, axis.z)};
   }
 
   AxesOf<double> axes_;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "core/contact/ellipse_gap.h"
 #include "core/random/stream.h"
@@ -92,6 +93,38 @@ TEST_P(GapBatchOfEllipses, IsALowerBoundAndSeldomALooseOne) {
 INSTANTIATE_TEST_SUITE_P(Classes, GapBatchOfEllipses,
                          testing::Values(Class{1, 0.5, 1.5}, Class{2, 0.5, 1.5}, Class{6, 0.3, 1.2},
                                          Class{20, 0.3, 1.2}, Class{6, 1, 5}));
+
+// Two neighbourhoods may have one centre; there is no direction from one to the other then.
+TEST(GapBatchOfEllipses, IsALowerBoundWhereTheCentresCoincide) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Stream draw(53, Purpose::tests);
+  const Ellipse one = random_ellipse(draw, 6);
+  GapBatch<Ellipse> batch(one, 0.3, none);
+  std::vector<Other> others;
+  for (int k = 0; k < GapBatch<Ellipse>::lanes; ++k) {
+    others.push_back({random_ellipse(draw, 6), draw.uniform(-9, 9), Vec2::Zero()});
+    batch.set(k, others[k].shape, others[k].angle, others[k].d);
+  }
+  batch.evaluate();
+  for (int k = 0; k < GapBatch<Ellipse>::lanes; ++k) {
+    EXPECT_NEAR(batch.axis(k).norm(), 1, 1e-15);
+    EXPECT_NEAR(batch.gap(k), gap_along(one, 0.3, others[k], batch.axis(k)), 1e-14);
+  }
+}
+
+// The same in space: between −(a₁ + a₂) and −(c₁ + c₂) along any axis.
+TEST(GapBatchOfEllipsoids, IsALowerBoundWhereTheCentresCoincide) {
+  const Ellipsoid one{{2, 1, 0.5}};
+  GapBatch<Ellipsoid> batch(one, Quaternion::Identity(), 4);
+  for (int k = 0; k < GapBatch<Ellipsoid>::lanes; ++k)
+    batch.set(k, one, Quaternion(Eigen::AngleAxisd(0.1 * k, Vec3::UnitX())), Vec3::Zero());
+  batch.evaluate();
+  for (int k = 0; k < GapBatch<Ellipsoid>::lanes; ++k) {
+    EXPECT_NEAR(batch.axis(k).norm(), 1, 1e-15);
+    EXPECT_GE(batch.gap(k), -4 - 1e-14);
+    EXPECT_LE(batch.gap(k), -1 + 1e-14);
+  }
+}
 
 // Distances of circles: |d| − r₁ − r₂.
 TEST(GapBatchOfDisks, IsTheDistance) {

@@ -61,9 +61,11 @@ class Crowd {
     const std::size_t i = draw.below(scene_.particles);
     Pose3& pose = poses_[i];
     if (draw.uniform() < 0.02) pose = drawn_pose(draw, scene_);
+    const bool joins = draw.uniform() < 0.05;
     const double turn = lists_.margin() / scene_.kinds[type_index_[i]].circumradius();
     const Motion3 motion{random_direction(draw), turn / lists_.margin() * random_direction(draw)};
     pose = advanced(pose, motion, draw.uniform() * lists_.margin());
+    if (joins) pose.position = poses_[draw.below(scene_.particles)].position;
     Shift<3> image = Shift<3>::Zero();
     box_.wrap(pose.position, image);
     sizes_[i] = static_cast<float>(size);

@@ -28,6 +28,7 @@ double distance(const Disk& one, double, const Disk& two, double, const Vec2& d)
 }
 double distance(const Ellipse& one, double angle1, const Ellipse& two, double angle2,
                 const Vec2& d) {
+  if (d.isZero()) return -one.b - two.b;
   return support_gap(one, angle1, two, angle2, d).gap;
 }
 
@@ -188,7 +189,7 @@ TYPED_TEST(NeighborLists, HoldAllWhoseNeighborhoodsMeet) {
   }
 }
 
-// Over the faces of the box or anywhere, and with growth at the size of the moment: the older a
+// Over the faces of the box or anywhere, to the place of another particle (as in a corner of the box), and with growth at the size of the moment: the older a
 // neighbourhood, the smaller. (Shrinking, the larger.)
 TYPED_TEST(NeighborLists, StayRightThroughThousandsOfRenewals) {
   Stream draw(62, Purpose::tests);
@@ -207,6 +208,7 @@ TYPED_TEST(NeighborLists, StayRightThroughThousandsOfRenewals) {
               crowd.poses[i].position + Vec2{draw.uniform(-step, step), draw.uniform(-step, step)};
           pose.angle = crowd.poses[i].angle + draw.uniform(-0.3, 0.3);
         }
+        if (n % 7 == 0) pose.position = crowd.poses[draw.below(scene.particles)].position;
         Shift<2> image = Shift<2>::Zero();
         crowd.box.wrap(pose.position, image);
         crowd.update(i, pose, std::pow(last_size, static_cast<double>(n) / renewals));

@@ -318,6 +318,22 @@ INSTANTIATE_TEST_SUITE_P(GrowthLimits, ResumedGrowth,
                          testing::Values(GrowthOptions{0.005, {}, 1e3, 5},
                                          GrowthOptions{0.05, 0.9, {}, 1, 2}));
 
+// In small boxes the neighbourhoods of several particles meet in one corner.
+TEST(GrowthLimits, KeepsAFewParticlesHardInASmallBox) {
+  const auto expect_hard = []<int Dim>(const Configuration<Dim>& start) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Configuration<Dim> c = start;
+      GrowthState state;
+      ASSERT_EQ(grow(c, {0.01, 0.3, {}, seed}, state, {}).end, StageEnd::reached) << seed;
+      EXPECT_TRUE(exact_check(c).clean()) << seed;
+    }
+  };
+  for (const int side : {2, 3}) {
+    expect_hard(square_lattice(side, 0.1, 0.4, [](std::size_t) { return of_aspect_ratio(2); }));
+    expect_hard(cubic_lattice(side, 0.02, [](std::size_t) { return prolate(2); }));
+  }
+}
+
 TEST(GrowthLimits, RefusesWhatCannotSucceed) {
   Configuration2 c = dilute(materials[0], 3);
   EXPECT_THROW(grown(c, {0.01, {}, {}, 1}), UserError);
