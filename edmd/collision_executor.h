@@ -10,6 +10,7 @@
 #include "edmd/engine.h"
 #include "edmd/event.h"
 #include "edmd/inelastic_collapse.h"
+#include "edmd/time_text.h"
 
 namespace vitrel {
 
@@ -220,8 +221,7 @@ class CollisionExecutor {
 
   [[noreturn]] void report_self_overlap(Index i) const {
     throw InvariantError(std::string("particle ") + std::to_string(state_.external_id[i]) +
-                         " grew into its own image at time " +
-                         std::to_string(state_.base + state_.now) +
+                         " grew into its own image at " + time_text(state_.base + state_.now) +
                          ": the box is too short for it");
   }
 

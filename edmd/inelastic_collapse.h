@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "edmd/simulation_state.h"
+#include "edmd/time_text.h"
 
 namespace vitrel {
 
@@ -40,9 +41,8 @@ class InelasticCollapse {
 
   [[noreturn]] void report(Index i, Index j) const {
     throw InvariantError(
-        std::string("inelastic collapse at time ") + std::to_string(state_.base + state_.now) +
-        ": particles " + std::to_string(state_.external_id[i]) + " and " +
-        std::to_string(state_.external_id[j]) +
+        "inelastic collapse at " + time_text(state_.base + state_.now) + ": particles " +
+        std::to_string(state_.external_id[i]) + " and " + std::to_string(state_.external_id[j]) +
         " collide repeatedly without moving; dynamics.contact_duration, the t_c of the "
         "contact-time model, "
         "goes on from here; or use a coefficient of restitution closer to 1, or a shorter run");

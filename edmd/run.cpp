@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "edmd/driving.h"
 #include "edmd/sampling.h"
+#include "edmd/time_text.h"
 
 namespace vitrel {
 
@@ -49,7 +50,7 @@ class EventDrivenRun {
       engine_->write(state_.configuration);
       record_conservation();
       if (!finished && !(state_.configuration.time > block_start))
-        throw InvariantError("time stands still at " + std::to_string(block_start) +
+        throw InvariantError("the simulation stands still at " + time_text(block_start) +
                              ": a block of events took no simulated time (" +
                              (are_soft(options_.engine)
                                   ? "too dense or too strongly damped for event-driven contacts?)"
@@ -151,7 +152,7 @@ class EventDrivenRun {
     const double share = state_.counters.added / state_.flight_energy;
     if (share > bound)
       throw InvariantError(
-          "by time " + std::to_string(state_.configuration.time) +
+          "by " + time_text(state_.configuration.time) +
           " the contact-time model has added more than 1e-5 of the energy, to keep apart surfaces "
           "that touch again and again; use a longer dynamics.contact_duration, a coefficient of "
           "restitution closer to 1, or a shorter run");

@@ -17,6 +17,7 @@
 #include "edmd/round_contact_predictor.h"
 #include "edmd/soft_contacts.h"
 #include "edmd/state_transfer.h"
+#include "edmd/time_text.h"
 
 namespace vitrel {
 
@@ -276,8 +277,8 @@ void Simulation<B>::execute_contact(Index i, const Event<B>& event, RunCounters&
 template <Body B>
 void Simulation<B>::report_overlap(Index i, Index j) const {
   throw InvariantError(std::string("particles ") + std::to_string(state_.external_id[i]) + " and " +
-                       std::to_string(state_.external_id[j]) + " overlap at time " +
-                       std::to_string(state_.base + state_.now) +
+                       std::to_string(state_.external_id[j]) + " overlap at " +
+                       time_text(state_.base + state_.now) +
                        ": a run must start from a state without overlaps, and keeps it");
 }
 

@@ -219,6 +219,7 @@ class TrajectoryReader {
   void read_axes();
   void read_shapes();
   std::optional<int> stated_dimension() const;
+  void require_size(std::size_t i, double longest, double shortest) const;
   void set_shapes(Configuration2& fixed, const std::vector<double>& values,
                   const h5::Shape& shape) const;
   void set_shapes(Configuration3& fixed, const std::vector<double>& values,

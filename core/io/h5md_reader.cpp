@@ -11,6 +11,7 @@
 #include "core/io/box_crossings.h"
 #include "core/io/foreign/foreign_file.h"
 #include "core/io/h5md.h"
+#include "core/state/bounds.h"
 #include "core/state/species.h"
 #include "core/tolerances.h"
 #include "core/whole_number.h"
@@ -127,6 +128,18 @@ std::optional<int> TrajectoryReader::stated_dimension() const {
   return states ? std::optional<int>(provenance().dimension) : std::nullopt;
 }
 
+void TrajectoryReader::require_size(std::size_t i, double longest, double shortest) const {
+  for (const double axis : {longest, shortest})
+    if (!bounds::length.contains(axis))
+      fail(fmt::format("a semi-axis of particle {} is {}, but {}", i, axis,
+                       requirement(bounds::length, axis)));
+  if (!(longest <= max_aspect * shortest))
+    fail(fmt::format(
+        "the longest semi-axis of particle {} is {:.4g} times the shortest, but must be at "
+        "most {} times: contacts of longer particles are not tested",
+        i, longest / shortest, max_aspect));
+}
+
 void TrajectoryReader::set_shapes(Configuration2& fixed, const std::vector<double>& values,
                                   const h5::Shape& shape) const {
   fixed.resize(shape[0]);
@@ -134,6 +147,7 @@ void TrajectoryReader::set_shapes(Configuration2& fixed, const std::vector<doubl
     const double a = values[shape[1] * i], b = values[shape[1] * i + 1];
     if (!(std::isfinite(a) && a >= b && b > 0))
       fail("the semi-axes of particle " + std::to_string(i) + " should be a ≥ b > 0");
+    require_size(i, a, b);
     fixed.shape[i] = {a, b};
   }
 }
@@ -145,6 +159,7 @@ void TrajectoryReader::set_shapes(Configuration3& fixed, const std::vector<doubl
     const Vec3 axes = shape[1] == 3 ? Vec3(&values[3 * i]) : Vec3(Vec3::Zero());
     if (!(axes.allFinite() && axes.minCoeff() > 0))
       fail("particle " + std::to_string(i) + " should have three semi-axes above 0");
+    require_size(i, axes.maxCoeff(), axes.minCoeff());
     fixed.shape[i] = {axes};
   }
 }
@@ -167,9 +182,9 @@ void TrajectoryReader::read_masses_and_species(Configuration<Dim>& fixed) const 
          std::to_string(fixed.size()));
   if (fixed.size() == 0) return;
   for (std::size_t i = 0; i < fixed.size(); ++i)
-    if (!(std::isfinite(fixed.mass[i]) && fixed.mass[i] > 0))
-      fail(fmt::format("the mass of particle {} is {}, but must be finite and above 0", i,
-                       fixed.mass[i]));
+    if (!bounds::mass.contains(fixed.mass[i]))
+      fail(fmt::format("the mass of particle {} is {}, but {}", i, fixed.mass[i],
+                       requirement(bounds::mass, fixed.mass[i])));
   const auto [low, high] = std::minmax_element(fixed.species.begin(), fixed.species.end());
   if (*low < 0) fail("the dataset " + group_ + "/species should count from 0");
   const std::size_t most = std::max(fixed.size(), fixed.species_names.size());
@@ -278,6 +293,9 @@ void TrajectoryReader::require_room(std::uint64_t frame,
         fmt::format("in frame {} the longest semi-axis is {}, and the box {}; it should not exceed "
                     "{} box lengths",
                     frame, longest, fmt::join(lengths, " × "), tolerance::max_box_lengths));
+  if (configuration.size() > 0 && !bounds::packing_fraction.contains(fraction))
+    fail(fmt::format("in frame {} the packing fraction is {}, but {}; box or semi-axes are wrong",
+                     frame, fraction, requirement(bounds::packing_fraction, fraction)));
   if (!(fraction <= tolerance::densest))
     fail(
         fmt::format("in frame {} the particles would fill the box {:.4g} times; box or semi-axes "

@@ -73,9 +73,10 @@ TEST(Hardening, AbsurdGeometryIsRefusedAtOnce) {
   expect_all_refuse(
       folder,
       {{"export", "state.h5", "--to", "csv", "--images"}, {"export", "state.h5", "--to", "vti"}},
-      "state.h5: in frame 0 the longest semi-axis is 1e+300");
+      "state.h5: a semi-axis of particle 0 is 1e+300, but must lie between");
   write_changed<2>(folder, [](auto& c) { c.shape[0].a = 1e300; });
-  expect_all_refuse(folder, {{"analyze", "state.h5"}}, "the longest semi-axis is 1e+300");
+  expect_all_refuse(folder, {{"analyze", "state.h5"}},
+                    "a semi-axis of particle 0 is 1e+300, but must lie between");
 }
 
 // Wrapped into the box, it would have crossed it more often than 32 bits can count.
@@ -143,6 +144,21 @@ TEST(Hardening, AChunkShorterThanItsChecksumIsRefused) {
                     "the file is damaged");
 }
 
+// Quantities of files have the bounds that they have as parameters.
+TEST(Hardening, SizesBeyondTheirBoundsAreRefused) {
+  const Folder folder("sizes");
+  const std::vector<std::vector<std::string>> commands = {
+      {"check", "state.h5"}, {"analyze", "state.h5"}, {"export", "state.h5", "--to", "csv"}};
+  write_changed<2>(folder, [](auto& c) { c.shape[1].b = 1e-300; });
+  expect_all_refuse(folder, commands, "a semi-axis of particle 1 is 1e-300, but must lie between");
+  write_changed<3>(folder, [](auto& c) { c.shape[1].semi_axes[2] = 1e-300; });
+  expect_all_refuse(folder, commands, "a semi-axis of particle 1 is 1e-300, but must lie between");
+  write_changed<2>(folder, [](auto& c) { c.shape[1].b = 1e-4 * c.shape[1].a; });
+  expect_all_refuse(folder, commands, "is 1e+04 times the shortest, but must be at most 1000");
+  write_changed<2>(folder, [](auto& c) { c.box = PeriodicBox<2>(1e12 * c.box.lengths()); });
+  expect_all_refuse(folder, commands, "but must be at least 1e-15; box or semi-axes are wrong");
+}
+
 TEST(Hardening, MassesAndSpeciesThatCannotBeAreRefusedByAllCommands) {
   const Folder folder("masses");
   folder.write("p.toml", "[dynamics]\ninitial_velocities = \"keep\"\n");
@@ -152,7 +168,7 @@ TEST(Hardening, MassesAndSpeciesThatCannotBeAreRefusedByAllCommands) {
       {"report", "state.h5"},
       {"export", "state.h5", "--to", "csv"},
       {"run", "p.toml", "--from", "state.h5", "-o", "run.h5"}};
-  for (const double mass : {-1., 0., double{NAN}, double{INFINITY}}) {
+  for (const double mass : {-1., 0., double{NAN}, double{INFINITY}, 1e-60}) {
     write_changed<2>(folder, [mass](auto& c) { c.mass[3] = mass; });
     expect_all_refuse(folder, commands, "state.h5: the mass of particle 3 is");
   }
@@ -215,7 +231,7 @@ TEST(Hardening, AStopIsAnsweredWhateverTheWork) {
   };
   const LongWork works[] = {
       {run_with({"output.samples.interval=1e-3"}), "run of"},
-      {run_with({"dynamics.kind=brownian", "dynamics.brownian_step=1e-9"}), "run of"},
+      {run_with({"dynamics.kind=brownian", "dynamics.brownian_step=2e-8"}), "run of"},
       {run_with({"output.correlations.interval=1e-7"}), "run of"},
       {run_with({"system.particles=300000", "system.packing_fraction=0.3"}), "insert at"},
       {run_with({"system.particles=1", "output.samples.spacing=logarithmic",
