@@ -6,6 +6,7 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/session.h"
+#include "app/terminal/stop_signals.h"
 #include "core/error.h"
 #include "core/io/json.h"
 #include "workflow/analyze/analyze.h"
@@ -75,6 +76,7 @@ int list_observables() {
 }  // namespace
 
 int analyze_command(const AnalyzeOptions& options) {
+  catch_stop_signals(0, StopDeadline::at_once);
   if (options.list) return list_observables();
   if (options.input.empty())
     throw UserError("name a run or the folder of a sweep; --list says what is computed");

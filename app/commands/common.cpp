@@ -61,7 +61,7 @@ std::string emphasized(const std::string& key, const Json& value, const std::str
 }
 
 std::string text_of(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return visible(value.get<std::string>());
   if (value.is_array()) {
     std::string joined;
     for (const Json& entry : value) joined += (joined.empty() ? "" : ", ") + text_of(entry);
@@ -158,7 +158,7 @@ void print_summary(const PrintOptions& options, const Json& summary) {
 }
 
 void remark(const PrintOptions& options, const std::string& line) {
-  if (!options.quiet) fmt::print(stderr, "{}\n", line);
+  if (!options.quiet) fmt::print(stderr, "{}\n", visible(line));
 }
 
 void remark_import(const PrintOptions& options, const fs::path& file, const ImportReport& report) {

@@ -6,6 +6,7 @@
 #include "app/commands/common.h"
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/progress.h"
+#include "app/terminal/stop_signals.h"
 #include "core/io/json.h"
 #include "core/io/text_file.h"
 #include "workflow/analyze/analyze.h"
@@ -38,6 +39,7 @@ const char* key_of(PageSubject subject) {
 }  // namespace
 
 int report_command(const ReportOptions& options) {
+  catch_stop_signals(0, StopDeadline::at_once);
   const fs::path input = run_or_sweep(options.input);
   const fs::path output = output_of(options, input);
   const AnalysisChoice choice = analysis_choice(options.analysis);

@@ -12,7 +12,8 @@
 
 namespace vitrel {
 int complain(const std::string& program, const std::string& message, int code) {
-  std::cerr << styled(program + ":", Style::error, STDERR_FILENO) << ' ' << message << '\n';
+  std::cerr << styled(program + ":", Style::error, STDERR_FILENO) << ' ' << visible(message)
+            << '\n';
   return code;
 }
 

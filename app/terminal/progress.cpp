@@ -61,7 +61,7 @@ void ProgressDisplay::show(const Progress& progress) {
 void ProgressDisplay::say(const std::string& line) {
   if (mode_ == Mode::silent) return;
   clear();
-  fmt::print(stderr, "{}\n", line);
+  fmt::print(stderr, "{}\n", visible(line));
 }
 
 void ProgressDisplay::clear() {

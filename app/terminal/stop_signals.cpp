@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "app/terminal/exit_codes.h"
+#include "core/io/atomic_file.h"
 #include "core/io/checked.h"
 #include "workflow/sweep/process.h"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr unsigned grace_seconds = 1;
 
 volatile std::sig_atomic_t stop_asked = 0;
-volatile std::sig_atomic_t has_deadline = 0;
+volatile std::sig_atomic_t has_deadline = 0, ends_at_once = 0;
 
 // In handlers only calls that are safe there.
 
@@ -26,7 +27,15 @@ void print(const char* text) {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
 }
 
+[[noreturn]] void end(const char* text) {
+  if (isatty(STDERR_FILENO)) print("\r\033[K");  // instead of the line of progress
+  print(text);
+  remove_unfinished_files();
+  _exit(stopped);
+}
+
 extern "C" void ask_to_stop(int number) {
+  if (ends_at_once) end("stopped; the same command begins again\n");
   if (!stop_asked && has_deadline) alarm(grace_seconds);
   stop_asked = 1;
   if (number == SIGINT) static_cast<void>(std::signal(SIGINT, SIG_DFL));
@@ -35,10 +44,7 @@ extern "C" void ask_to_stop(int number) {
 // The first alarm is the wall time, the second the deadline.
 extern "C" void note_alarm(int number) {
   if (!stop_asked) return ask_to_stop(number);
-  if (isatty(STDERR_FILENO)) print("\r\033[K");  // instead of the line of progress
-  print(
-      "stopped at once, without the work since the last checkpoint; the same command continues\n");
-  _exit(stopped);
+  end("stopped at once, without the work since the last checkpoint; the same command continues\n");
 }
 
 bool is_ignored(int number) {
@@ -69,6 +75,7 @@ void set_alarm(double seconds) {
 
 void catch_stop_signals(double wall_time, StopDeadline deadline) {
   has_deadline = deadline == StopDeadline::soon;
+  ends_at_once = deadline == StopDeadline::at_once;
   const bool is_nohup = is_ignored(SIGHUP);
   for (const int number : stop_signals)
     if (number != SIGHUP || !is_nohup) handle(number, ask_to_stop);

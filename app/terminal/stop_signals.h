@@ -6,8 +6,9 @@
 namespace vitrel {
 
 enum class StopDeadline {
-  soon,  ///< a second after the request the program ends with exit code 5, whatever it does
-  none   ///< for what cannot be continued, or waits for other programs, which have their own
+  soon,     ///< a second after the request the program ends with exit code 5, whatever it does
+  at_once,  ///< for what has nothing to save: the program ends with exit code 5
+  none      ///< for what cannot be continued, or waits for other programs, which have their own
 };
 
 /// From now on signals and the end of the wall time request a stop. `wall_time` in seconds from now; 0: no limit. SIGHUP

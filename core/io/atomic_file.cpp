@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <random>
 #include <string>
@@ -32,6 +34,17 @@ void move_file(const fs::path& from, const fs::path& to) {
   if (error)
     throw FileError(to.string() + ": cannot rename " + from.string() +
                     " to it: " + error.message());
+}
+
+/// The names of unfinished files, for a signal handler, which must not touch anything else of theirs. More at once than
+/// there are places for, which does not happen, stay if the process ends at once.
+std::array<std::atomic<const char*>, 8> unfinished{};
+
+void exchange_unfinished(const char* from, const char* to) {
+  for (std::atomic<const char*>& name : unfinished) {
+    const char* expected = from;
+    if (name.compare_exchange_strong(expected, to)) return;
+  }
 }
 
 /// Calls `make` with one name after the other, until it makes a new one.
@@ -72,18 +85,27 @@ fs::path make_partial_folder(const fs::path& path) {
                       [](const fs::path& partial) { return ::mkdir(partial.c_str(), 0777) == 0; });
 }
 
-AtomicFile::AtomicFile(fs::path path)
-    : path_(target_of(path)), partial_(make_partial_file(path_)) {}
+void remove_unfinished_files() noexcept {
+  for (const std::atomic<const char*>& name : unfinished)
+    if (const char* file = name.load()) static_cast<void>(::unlink(file));
+}
+
+AtomicFile::AtomicFile(fs::path path) : path_(target_of(path)), partial_(make_partial_file(path_)) {
+  exchange_unfinished(nullptr, partial_.c_str());
+}
 
 AtomicFile::~AtomicFile() {
+  if (partial_.empty()) return;
   std::error_code ignored;
-  if (!partial_.empty()) fs::remove(partial_, ignored);
+  fs::remove(partial_, ignored);
+  exchange_unfinished(partial_.c_str(), nullptr);
 }
 
 void AtomicFile::commit(const fs::path& previous) {
   synchronize(partial_);
   if (!previous.empty() && fs::exists(path_)) move_file(path_, previous);
   move_file(partial_, path_);
+  exchange_unfinished(partial_.c_str(), nullptr);
   partial_.clear();
   synchronize(path_.has_parent_path() ? path_.parent_path() : ".");
 }

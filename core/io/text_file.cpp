@@ -15,6 +15,7 @@
 namespace vitrel {
 
 std::string read_text(const std::filesystem::path& path) {
+  require_regular_file(path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -37,6 +38,25 @@ void write_text(const std::filesystem::path& path, std::string_view text) {
 
 Json read_json(const std::filesystem::path& path) {
   return parse_json(read_text(path), path.string());
+}
+
+void read_json_as(const std::string& what, const std::filesystem::path& file,
+                  const std::function<void(const Json&)>& read) {
+  const Json json = read_json(file);
+  try {
+    read(json);
+  } catch (const Json::exception&) {
+    throw FileError(
+        fmt::format("{}: is JSON, but not {}, as vitrel writes it", file.string(), what));
+  }
+}
+
+void require_regular_file(const std::filesystem::path& file) {
+  std::error_code none;
+  const auto kind = std::filesystem::status(file, none).type();
+  using Type = std::filesystem::file_type;
+  if (kind == Type::fifo || kind == Type::character || kind == Type::block || kind == Type::socket)
+    throw FileError(file.string() + ": is not a regular file");
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,14 @@ void write_text(const std::filesystem::path& path, std::string_view text);
 
 /// Throws FileError, too, if the file is not JSON.
 Json read_json(const std::filesystem::path& path);
+
+/// Passes the JSON of a file to `read`. Throws FileError, which names the file, if it is not JSON, or not `what`: if it lacks
+/// a member that `read` asks for, or has one of another type.
+void read_json_as(const std::string& what, const std::filesystem::path& file,
+                  const std::function<void(const Json&)>& read);
+
+/// Throws FileError for a pipe or a device, of which nobody knows when it ends.
+void require_regular_file(const std::filesystem::path& file);
 
 /// Makes the folder and those around it, as far as they are missing. Throws FileError.
 void make_folder(const std::filesystem::path& folder);

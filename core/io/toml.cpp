@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/io/text_file.h"
 
 // The only file that includes toml++.
 namespace vitrel {
@@ -177,6 +178,7 @@ TomlNode parse_toml(std::string_view text, const std::string& name) {
 }
 
 TomlNode read_toml_file(const std::filesystem::path& path) {
+  require_regular_file(path);
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   // A folder opens like a file and fails on the first read.

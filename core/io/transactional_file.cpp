@@ -82,7 +82,7 @@ bool succeeds_soon(const std::function<bool()>& succeeds) {
 TransactionalFile::TransactionalFile(std::filesystem::path path, Mode mode)
     : path_(std::move(path)), mode_(mode) {
   const int flags = mode == Mode::read ? O_RDONLY : mode == Mode::write ? O_RDWR : O_RDWR | O_CREAT;
-  descriptor_ = ::open(path_.c_str(), flags | O_CLOEXEC, 0666);
+  descriptor_ = ::open(path_.c_str(), flags | O_NONBLOCK | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(path_, opening(mode), system_message());
   try {
     open();

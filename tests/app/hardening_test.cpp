@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <cstring>
@@ -13,13 +14,16 @@
 #include "core/io/h5md.h"
 #include "core/io/text_file.h"
 #include "tests/app/program.h"
+#include "tests/support/partial_files.h"
 
 namespace vitrel {
 namespace {
 
 using testing_program::expect_refusal;
 using testing_program::Folder;
+using testing_program::Outcome;
 using testing_program::run;
+using testing_program::run_and_signal;
 
 /// 12 bodies on a line, far apart.
 template <int Dim>
@@ -207,6 +211,73 @@ TEST(Hardening, OddNamesAndSeedsAreRefusedInPlainWords) {
       expect_refusal(run(folder.path(), {command, "p.toml", "-o", "a.h5", "--seed", seed}), 2,
                      std::string(seed) + " is not a whole number between 0 and");
   }
+}
+
+TEST(Hardening, PipesAndDevicesAreNoInput) {
+  const Folder folder("pipes");
+  folder.write("p.toml", "# all defaults\n");
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const char* input : {"pipe", "/dev/null", "/dev/zero"}) {
+    for (const char* command : {"check", "analyze", "report"})
+      expect_refusal(run(folder.path(), {command, input}), 3, "is not a regular file");
+    expect_refusal(run(folder.path(), {"export", input, "--to", "csv"}), 3,
+                   "is not a regular file");
+    expect_refusal(run(folder.path(), {"run", input, "-o", "run.h5"}), 3, "is not a regular file");
+    expect_refusal(run(folder.path(), {"run", "p.toml", "--from", input, "-o", "run.h5"}), 3,
+                   "is not a regular file");
+  }
+}
+
+// What files and command lines hold is quoted, and must not rewrite the terminal.
+TEST(Hardening, ControlCharactersAreShownAndNotSent) {
+  const Folder folder("escapes");
+  const std::string red = "\x1b[31m", shown = "\\x1b[31m";
+  folder.write("table.csv", "x,y,angle,a,b,box_x,box_y\n" + red + ",0,0,1,0.5,6,6\n");
+  folder.write("p.toml", "[dynamics]\n\"\\u001b[31m\" = 1\n");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"check", "table.csv"},
+        {"run", "p.toml", "-o", "run.h5"},
+        {"run", "p.toml", "-o", "run.h5", "--set", "dynamics." + red + "=1"},
+        {"report", red + ".h5"},
+        {"run", "p.toml", "-o", red + "/run.h5"}}) {
+    const Outcome outcome = run(folder.path(), words);
+    EXPECT_NE(outcome.code, 0);
+    EXPECT_THAT(outcome.errors, testing::HasSubstr(shown));
+    EXPECT_THAT(outcome.errors, testing::Not(testing::HasSubstr(red)));
+  }
+}
+
+TEST(Hardening, JsonOfOthersIsRefusedInVitrelsWords) {
+  const Folder folder("json");
+  std::filesystem::create_directory(folder / "job");
+  folder.write("job/parameters.toml", "# all defaults\n");
+  for (const char* done :
+       {"\"x\"", "3", "[]", "{}", "{\"run\": 3}", "{\"prepare\": null}", "null"}) {
+    folder.write("job/done.json", done);
+    for (const char* command : {"report", "analyze"}) {
+      const Outcome outcome = run(folder.path(), {command, "job"});
+      expect_refusal(outcome, 3, "job/done.json: is JSON, but not the summary of a job");
+      EXPECT_THAT(outcome.errors, testing::Not(testing::HasSubstr("json.exception")));
+    }
+  }
+}
+
+// There is nothing to save, and nothing is left.
+TEST(Hardening, AnAnalysisIsStoppedAtOnce) {
+  const Folder folder("stopped_analysis");
+  folder.write("p.toml",
+               "[system]\nparticles = 30\n[dynamics]\nduration = 100\nequilibration = 0\n");
+  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5"}).code, 0);
+  for (const int signal : {SIGINT, SIGTERM})
+    for (const char* command : {"analyze", "report"}) {
+      const Outcome outcome = run_and_signal(
+          folder.path(), {command, "run.h5", "--set", "analysis.structure.wave_number_max=1000"},
+          std::chrono::milliseconds(1000), signal);
+      EXPECT_EQ(outcome.code, 5) << outcome.errors;
+      EXPECT_THAT(outcome.errors, testing::HasSubstr("stopped; the same command begins again"));
+    }
+  EXPECT_FALSE(std::filesystem::exists(folder / "run_results.h5"));
+  EXPECT_THAT(partial_files(folder.path()), testing::IsEmpty());
 }
 
 /// Work that is far from its end, and what it has said once it is under way.

@@ -398,7 +398,7 @@ double AnalysedRun::packing_fraction() const {
 
 std::uint64_t AnalysedRun::seed() const {
   const std::string seed = results.text("seed");
-  return seed.empty() ? 0 : std::stoull(seed);
+  return std::strtoull(seed.c_str(), nullptr, 10);  // 0 of a text that is no number
 }
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,

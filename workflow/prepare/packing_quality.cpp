@@ -103,8 +103,7 @@ std::optional<PackingQuality> measure_quality(const Preparation<3>& preparation,
 }
 
 void add_preparation(PackingQuality& quality, const std::filesystem::path& file) {
-  try {
-    const Json report = read_json(file);
+  read_json_as("a quality report", file, [&](const Json& report) {
     if (report.at("particles") != quality.particles ||
         report.at("packing_fraction") != quality.packing_fraction)
       throw FileError(
@@ -118,10 +117,7 @@ void add_preparation(PackingQuality& quality, const std::filesystem::path& file)
     quality.decorrelation = decorrelation_from(report.value("time_correlation", Json(nullptr)));
     quality.collisions = report.at("collisions");
     quality.wall_seconds = report.at("wall_seconds");
-  } catch (const Json::exception& error) {
-    throw FileError(fmt::format("{}: is not a quality report of vitrel prepare: {}", file.string(),
-                                error.what()));
-  }
+  });
 }
 
 std::vector<QualityRow> quality_rows(const PackingQuality& quality) {

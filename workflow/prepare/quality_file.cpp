@@ -87,12 +87,8 @@ Quality read_quality(const std::filesystem::path& file, const Configuration2& st
                     "the page needs both (that of a run needs two frames or more)",
                     file.string()));
   Quality quality;
-  try {
-    quality = quality_from(read_json(file));
-  } catch (const Json::exception& error) {
-    throw FileError(fmt::format("{}: is not a quality report of vitrel prepare: {}", file.string(),
-                                error.what()));
-  }
+  read_json_as("a quality report", file,
+               [&](const Json& report) { quality = quality_from(report); });
   // Other versions and libraries round the last digits otherwise.
   const auto differ = [](double one, double two) { return !(std::abs(one - two) <= 1e-12); };
   if (quality.particles != state.size() ||

@@ -13,7 +13,8 @@ namespace vitrel {
 
 Json page_number(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
-  return std::stod(fmt::format("{:.{}g}", value, digits));
+  const double rounded = std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+  return std::isfinite(rounded) ? Json(rounded) : Json(value);  // near the largest number
 }
 
 Json page_numbers(const std::vector<double>& values, const std::vector<std::size_t>& rows,

@@ -43,7 +43,7 @@ std::string text_now(const SweepJob& job, const std::string& before, const fs::p
 bool is_still_done(const SweepJob& job, const fs::path& folder, const std::string& before,
                    const std::string& now) {
   return !first_difference(before, now, may_change_unnoticed) &&
-         read_json(folder / "done.json").contains("run") != job.prepares_only;
+         job_done(folder).contains("run") != job.prepares_only;
 }
 
 /// Jobs done by earlier versions have the former key alone, others both.
@@ -73,7 +73,7 @@ JobStage job_stage(const fs::path& folder) {
 
 fs::path job_product(const fs::path& folder) {
   const fs::path run = folder / "run.h5", done = folder / "done.json";
-  const bool is_run = fs::exists(run) || (fs::exists(done) && read_json(done).contains("run"));
+  const bool is_run = fs::exists(run) || (fs::exists(done) && job_done(folder).contains("run"));
   return is_run ? run : folder / "state.h5";
 }
 
@@ -115,13 +115,30 @@ void write_job_end(JobStage stage, const std::string& step, int exit_code, const
 
 Json job_end(const fs::path& folder) {
   const fs::path file = folder / "end.json";
-  return fs::exists(file) ? read_json(file) : Json();
+  Json end;
+  if (fs::exists(file))
+    read_json_as("the end of a job", file, [&](const Json& json) {
+      static_cast<void>(job_end_text(json));  // needs all of it
+      end = json;
+    });
+  return end;
 }
 
 std::string job_end_text(const Json& end) {
   return fmt::format("{} in {} with exit code {}: {}", end.at("stage").get<std::string>(),
                      end.at("step").get<std::string>(), end.at("exit_code").get<int>(),
                      end.at("message").get<std::string>());
+}
+
+Json job_done(const fs::path& folder) {
+  Json done;
+  read_json_as("the summary of a job", folder / "done.json", [&](const Json& json) {
+    for (const char* step : {"prepare", "run", "analyze"})
+      if (json.contains(step)) static_cast<void>(json.at(step).get_ref<const Json::object_t&>());
+    static_cast<void>(json.at(json.contains("run") ? "run" : "prepare"));
+    done = json;
+  });
+  return done;
 }
 
 void forget_job_end(const fs::path& folder) {

@@ -45,7 +45,9 @@ std::optional<ParameterDifference> change_since_begun(const SweepJob& job,
 /// line of the log. Where nothing can be written, as on a full disk, nothing is noted.
 void write_job_end(JobStage stage, const std::string& step, int exit_code,
                    const std::filesystem::path& folder);
-/// What write_job_end wrote; null without it.
+/// The summaries of the steps of a job that is done: "prepare", and "run" or "analyze" if there were such. FileError.
+Json job_done(const std::filesystem::path& folder);
+/// What write_job_end wrote; null without it. FileError.
 Json job_end(const std::filesystem::path& folder);
 /// In words: "failed in run with exit code 3: run.h5: cannot be written".
 std::string job_end_text(const Json& end);

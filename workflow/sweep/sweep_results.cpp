@@ -118,7 +118,11 @@ Table seeds_table(const std::vector<SeedAverage>& averages, const Results& units
 /// The values of its job; empty for a run that belongs to no sweep.
 SweptValues values_of(const AnalysedRun& run) {
   const fs::path file = folder_of(run) / "params.json";
-  return fs::exists(file) ? swept_values(read_json(file).at("values")) : SweptValues();
+  SweptValues values;
+  if (fs::exists(file))
+    read_json_as("the values of a job", file,
+                 [&](const Json& job) { values = swept_values(job.at("values")); });
+  return values;
 }
 
 void add_seeds(const std::vector<AnalysedRun>& runs, Results& results) {
@@ -165,7 +169,7 @@ void add_figures(const Json& job, std::span<const Quantity> quantities, Results&
 
 AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
                          const AnalysisProgress& progress) {
-  const Json done = read_json(job / "done.json");
+  const Json done = job_done(job);
   AnalysedRun run{job_product(job), {}};
   if (!done.contains("analyze"))
     run.results.provenance = provenance_rows(TrajectoryReader(run.file).provenance());

@@ -50,7 +50,7 @@ constexpr const char* missing = "–";
 
 /// Null unless the job is done.
 Json done_of(const fs::path& folder) {
-  return job_stage(folder) == JobStage::done ? read_json(folder / "done.json") : Json();
+  return job_stage(folder) == JobStage::done ? job_done(folder) : Json();
 }
 
 std::string number_cell(const Figures& figures, const ShownFigure& shown) {

@@ -1,4 +1,5 @@
 #include "core/io/foreign/foreign_formats.h"
+#include "core/io/text_file.h"
 
 #include <fmt/format.h>
 
@@ -54,6 +55,7 @@ std::string foreign_format_names() {
 }
 
 const ForeignFormat& format_of(const std::filesystem::path& path, const ImportOptions& options) {
+  require_regular_file(path);
   if (options.format) {
     const auto named = std::ranges::find(formats, *options.format, &ForeignFormat::name);
     if (named == formats.end())
