@@ -23,6 +23,7 @@ const std::string exit_codes =
     "Exit codes: 0 done, 2 mistake in parameters or command line, 3 a file cannot be read or "
     "written";
 const std::string overlap_code = ", 4 overlap or another broken invariant";
+const std::string stopped_code = ", 5 stopped (nothing was written).";
 const std::string resumed_code = ", 5 stopped (the same command continues)";
 
 void add_print(CLI::App& sub, PrintOptions& print) {
@@ -179,6 +180,7 @@ class CommandLine : public ProgramCommandLine {
                         "times and the glass transition, from the results of its jobs, or with "
                         "--params or --set from their runs.",
                         analyze_command, analyze_);
+    sub.footer(exit_codes + stopped_code);
     CLI::Option* run = add_file(sub, "run", analyze_.input, "Run, or folder of a job or a sweep");
     sub.add_flag("--list", analyze_.list, "All tables as Markdown (docs/observables.md)")
         ->excludes(run);
@@ -226,6 +228,7 @@ class CommandLine : public ProgramCommandLine {
   void add_report() {
     CLI::App& sub = add("report", "One HTML page about a prepared state, a run or a sweep.",
                         report_command, report_);
+    sub.footer(exit_codes + stopped_code);
     add_file(sub, "run", report_.input, "State, run, or folder of a job or a sweep")->required();
     add_output(sub, report_.output,
                "Page to write; default <state>.html, <run>.html or <sweep>/report.html");
@@ -237,7 +240,7 @@ class CommandLine : public ProgramCommandLine {
     CLI::App& sub =
         add("export", "Write a state, a run or results in the format of another program.",
             export_command, export_);
-    sub.footer(exit_codes + ", 5 stopped (nothing was written).");
+    sub.footer(exit_codes + stopped_code);
     add_file(sub, "file", export_.input, "State or run, or results of vitrel analyze")->required();
     add_choice(
         sub, "--to", export_.format, all_formats(), "FORMAT",

@@ -7,7 +7,6 @@
 #include "app/commands/common.h"
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
-#include "app/terminal/stop_signals.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "core/io/json.h"
@@ -65,7 +64,6 @@ int check_and_print(const CheckOptions& options, const TrajectoryReader& reader)
 }  // namespace
 
 int check_command(const CheckOptions& options) {
-  catch_stop_signals(0, StopDeadline::at_once);
   const TrajectoryReader reader(options.input, import_choice(options.import));
   return reader.dimension() == 2 ? check_and_print<2>(options, reader)
                                  : check_and_print<3>(options, reader);

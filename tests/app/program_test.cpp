@@ -378,7 +378,8 @@ TEST(Program, EveryKindOfBadParameterFileExitsWithTwo) {
          "p.toml:2:1: key 'system.particels' is unknown; did you mean "
          "'particles'?");
   refuse("[system]\nparticles = \"a\"\n", "p.toml:2:13: key 'system.particles' must be an integer");
-  refuse("[system]\nparticles = -3\n", "p.toml:2:13: key 'system.particles' is -3, but must lie");
+  refuse("[system]\nparticles = -3\n",
+         "p.toml:2:13: key 'system.particles' is -3, but must be positive");
   EXPECT_FALSE(std::filesystem::exists(folder / "run.h5"));
   folder.write("p.toml", small_system);
   expect_refusal(
@@ -405,7 +406,7 @@ TEST(Program, HelpFitsATerminalAndNamesTheExitCodesThatOccur) {
   const Folder folder("help");
   const std::map<std::string, std::vector<int>> codes = {
       {"prepare", {0, 2, 3, 4, 5}}, {"run", {0, 2, 3, 4, 5}}, {"check", {0, 2, 3, 4, 5}},
-      {"analyze", {0, 2, 3}},       {"report", {0, 2, 3}},    {"sweep", {0, 2, 3, 4, 5}},
+      {"analyze", {0, 2, 3, 5}},    {"report", {0, 2, 3, 5}}, {"sweep", {0, 2, 3, 4, 5}},
       {"export", {0, 2, 3, 5}},     {"params", {0, 2, 3}}};
   for (const auto& [command, expected] : codes) {
     const Outcome help = run(folder.path(), {command, "--help"});

@@ -34,15 +34,15 @@ class StorageOfHdf5 : public testing::Test {
     constexpr std::array<double, size> numbers{1, 2, 3, 4};
     EXPECT_GE(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()),
               0);
-    H5Dclose(dataset);
-    H5Sclose(space);
+    EXPECT_GE(H5Dclose(dataset), 0);
+    EXPECT_GE(H5Sclose(space), 0);
   }
 
   void write(const char* name, const std::function<void(hid_t)>& content) const {
     const hid_t file = H5Fcreate((folder_ / name).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     ASSERT_GE(file, 0);
     content(file);
-    H5Fclose(file);
+    EXPECT_GE(H5Fclose(file), 0);
   }
 
   /// A dataset that shows the one of this file and name; "." is the file itself.
@@ -53,9 +53,9 @@ class StorageOfHdf5 : public testing::Test {
     const hid_t created =
         H5Dcreate2(file, "x", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
     EXPECT_GE(created, 0);
-    H5Dclose(created);
-    H5Sclose(space);
-    H5Pclose(properties);
+    EXPECT_GE(H5Dclose(created), 0);
+    EXPECT_GE(H5Sclose(space), 0);
+    EXPECT_GE(H5Pclose(properties), 0);
   }
 
   void expect_refusal(const std::function<void(hid_t)>& content, const std::string& reason) const {
@@ -85,7 +85,7 @@ TEST_F(StorageOfHdf5, InOtherFilesIsRefused) {
         const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
         EXPECT_GE(H5Pset_external(properties, (folder_ / "raw").c_str(), 0, H5F_UNLIMITED), 0);
         add(file, "x", properties);
-        H5Pclose(properties);
+        EXPECT_GE(H5Pclose(properties), 0);
       },
       "another file");
   expect_refusal(
@@ -121,7 +121,7 @@ TEST_F(StorageOfHdf5, ThatVitrelReadsNeedsNothingElse) {
     const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
     EXPECT_GE(H5Pset_layout(properties, H5D_COMPACT), 0);
     add(file, "x", properties);
-    H5Pclose(properties);
+    EXPECT_GE(H5Pclose(properties), 0);
   });
   expect_read([](hid_t file) {
     const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
@@ -130,7 +130,7 @@ TEST_F(StorageOfHdf5, ThatVitrelReadsNeedsNothingElse) {
     EXPECT_GE(H5Pset_deflate(properties, 6), 0);
     EXPECT_GE(H5Pset_fletcher32(properties), 0);
     add(file, "x", properties);
-    H5Pclose(properties);
+    EXPECT_GE(H5Pclose(properties), 0);
   });
 }
 

@@ -257,7 +257,7 @@ TEST(QualityFile, SaysWhatIsWrongWithIt) {
   };
   EXPECT_THAT(complaint(), HasSubstr("a.quality.json: is missing"));
   folder.write("a.quality.json", "{\"particles\": 3}");
-  EXPECT_THAT(complaint(), HasSubstr("a.quality.json: is not a quality report"));
+  EXPECT_THAT(complaint(), HasSubstr("a.quality.json: is JSON, but not a quality report"));
   folder.write("a.quality.json", "{\"parti");
   EXPECT_THAT(complaint(), HasSubstr("is not JSON"));
   quality.nematic_order *= 1 + 1e-15;  // of a version that rounded otherwise
