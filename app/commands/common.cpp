@@ -157,6 +157,10 @@ void print_summary(const PrintOptions& options, const Json& summary) {
   }
 }
 
+Json stopped_summary(const fs::path& output) {
+  return {{"output", output.string()}, {"complete", false}};
+}
+
 void remark(const PrintOptions& options, const std::string& line) {
   if (!options.quiet) fmt::print(stderr, "{}\n", visible(line));
 }

@@ -43,6 +43,9 @@ void require_new(const std::filesystem::path& output);
 /// error" where `key_error` is in the summary, too.
 void print_summary(const PrintOptions& options, const Json& summary);
 
+/// The summary of work that was stopped before there was anything else to say of it.
+Json stopped_summary(const std::filesystem::path& output);
+
 /// One line on standard error, unless quiet.
 void remark(const PrintOptions& options, const std::string& line);
 /// How the file of another program was read, a line for each heading; nothing if vitrel wrote it.

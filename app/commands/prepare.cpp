@@ -132,7 +132,9 @@ int prepare_state(const PrepareOptions& options, const PrepareRequest& request, 
     quality = measure_quality(preparation, parameters, session.control(), options.threads);
   }
   session.clear();
+  set_summary_of_stop("");
   if (!quality) {
+    if (options.print.json) print_summary(options.print, stopped_summary(options.output));
     remark(options.print, "stopped; the same command continues");
     return stopped;
   }
@@ -163,6 +165,7 @@ int prepare_command(const PrepareOptions& options) {
                                options.output, options.command_line, options.threads};
   require_new(options.output);
   Session session(options.print.quiet, options.wall_time);
+  if (options.print.json) set_summary_of_stop(json_text(stopped_summary(options.output), 2) + "\n");
   return prepared_dimension(request) == 2 ? prepare_state<2>(options, request, session)
                                           : prepare_state<3>(options, request, session);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <string>
 
 #include "app/terminal/exit_codes.h"
 #include "core/io/atomic_file.h"
@@ -19,17 +20,20 @@ namespace {
 constexpr unsigned grace_seconds = 1;
 
 volatile std::sig_atomic_t stop_asked = 0;
+std::string summary_text;
+const char* volatile summary_of_stop = "";
 volatile std::sig_atomic_t has_deadline = 0, ends_at_once = 0;
 
 // In handlers only calls that are safe there.
 
-void print(const char* text) {
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
+void print(const char* text, int descriptor = STDERR_FILENO) {
+  [[maybe_unused]] const auto written = write(descriptor, text, std::strlen(text));
 }
 
 [[noreturn]] void end(const char* text) {
   if (isatty(STDERR_FILENO)) print("\r\033[K");  // instead of the line of progress
   print(text);
+  print(summary_of_stop, STDOUT_FILENO);
   remove_unfinished_files();
   _exit(stopped);
 }
@@ -82,6 +86,12 @@ void catch_stop_signals(double wall_time, StopDeadline deadline) {
   handle(SIGALRM, note_alarm);
   handle(SIGXFSZ, SIG_IGN);
   if (wall_time > 0) set_alarm(wall_time);
+}
+
+void set_summary_of_stop(const std::string& text) {
+  summary_of_stop = "";
+  summary_text = text;
+  summary_of_stop = summary_text.c_str();
 }
 
 bool stop_requested() {

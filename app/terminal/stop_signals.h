@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 /// @file
 /// A clean stop on request: the signals of workflow/sweep/process.h and the wall time set a flag, which work asks for
 /// where it can be resumed. Work that does not get there soon is ended as if it were killed, which all files survive.
@@ -15,6 +17,9 @@ enum class StopDeadline {
 /// that is ignored already (nohup) stays so; shells ignore others for their own sake. A second SIGINT ends the program at
 /// once. A file that exceeds the limit of the system becomes an error of writing, instead of SIGXFSZ.
 void catch_stop_signals(double wall_time, StopDeadline deadline);
+
+/// What standard output gets if the program is ended at once; nothing by default.
+void set_summary_of_stop(const std::string& text);
 
 bool stop_requested();
 

@@ -8,6 +8,7 @@ namespace vitrel {
 
 std::string requirement(const Bounds& bounds, double value) {
   if (*bounds.words) return fmt::format("must {}", bounds.words);
+  if (std::isinf(bounds.low) && std::isinf(bounds.high)) return "must be a number";
   if (bounds.low > 0 && value <= 0) return "must be positive";
   if (bounds.low == 0 && bounds.high >= bounds::not_negative.high && value < 0)
     return "must be 0 or more";

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "core/io/checked.h"
 #include "core/io/h5.h"
@@ -259,6 +260,22 @@ TEST(Hardening, JsonOfOthersIsRefusedInVitrelsWords) {
       expect_refusal(outcome, 3, "job/done.json: is JSON, but not the summary of a job");
       EXPECT_THAT(outcome.errors, testing::Not(testing::HasSubstr("json.exception")));
     }
+  }
+}
+
+TEST(Hardening, APreparationThatIsStoppedHasASummary) {
+  const Folder folder("stopped_preparation");
+  folder.write("p.toml",
+               "[system]\nparticles = 20\npacking_fraction = 0.9\n[[species]]\naspect_ratio = 1\n"
+               "[[prepare.stage]]\nmethod = \"insert\"\npacking_fraction = 0.9\n"
+               "attempts = 1000000000000000000\n");
+  for (const char* command : {"prepare", "run"}) {
+    const Outcome outcome = run(
+        folder.path(), {command, "p.toml", "-o", "out.h5", "--json", "-q", "--wall-time", "0.2"});
+    EXPECT_EQ(outcome.code, 5) << outcome.errors;
+    const auto summary = nlohmann::json::parse(outcome.output);
+    EXPECT_EQ(summary["output"], "out.h5");
+    EXPECT_EQ(summary["complete"], false);
   }
 }
 

@@ -224,16 +224,14 @@ TEST(ContactTimeModel, GoesOnWhereRunsStop) {
 // Clusters without any normal speed: surfaces that turn towards each other touch again and again.
 template <int Dim>
 void expect_to_stay_hard(const Configuration<Dim>& start) {
-  for (const double restitution : {0., 0.5})
-    for (const double contact_duration : {1e-7, 1e-5, 0.1, 10.})
-      for (const double friction : {0., 0.5}) {
-        SCOPED_TRACE(testing::Message() << "e = " << restitution << ", t_c = " << contact_duration
-                                        << ", friction " << friction);
-        const RunState<Dim> end =
-            run_until(start, 6, with(ContactLaw{restitution, friction, 0}, contact_duration));
-        expect_balanced(end);
-        EXPECT_TRUE(exact_check(end.configuration).clean());
-      }
+  for (const double contact_duration : {1e-7, 1e-5, 0.1, 10.})
+    for (const double friction : {0., 0.5}) {
+      SCOPED_TRACE(testing::Message() << "t_c = " << contact_duration << ", friction " << friction);
+      const RunState<Dim> end =
+          run_until(start, 6, with(ContactLaw{0., friction, 0}, contact_duration));
+      expect_balanced(end);
+      EXPECT_TRUE(exact_check(end.configuration).clean());
+    }
 }
 
 TEST(ContactTimeModel, KeepsPlasticParticlesOfAllShapesHard) {

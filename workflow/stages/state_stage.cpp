@@ -101,8 +101,9 @@ void describe_species_names(StateStage& stage, FieldVisitor& visit) {
 }
 
 void describe_masses(StateStage& stage, FieldVisitor& visit) {
-  visit.optional({"masses", "mass", "The default is a b (a b c), or the mass of the species."},
-                 stage.masses, std::vector<double>{0.5, 0.5});
+  visit.optional(
+      {"masses", "mass", "The default is a b (a b c), or the mass of the species.", bounds::mass},
+      stage.masses, std::vector<double>{0.5, 0.5});
 }
 
 /// `names` is in the plural: "positions".

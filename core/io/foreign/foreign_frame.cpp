@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/io/box_crossings.h"
 #include "core/io/quantity.h"
+#include "core/state/bounds.h"
 #include "core/state/species.h"
 #include "core/tolerances.h"
 
@@ -123,9 +124,9 @@ double mass_of(const ForeignFrame& frame, const KnownSpecies* known, std::size_t
   const double mass = !frame.mass.empty()    ? frame.mass[i]
                       : known && known->mass ? *known->mass
                                              : natural_mass(shape);
-  if (!(std::isfinite(mass) && mass > 0))
-    throw UserError(
-        fmt::format("particle {} has the mass {}, but should have one above 0", i, mass));
+  if (!bounds::mass.contains(mass))
+    throw UserError(fmt::format("the mass of particle {} is {}, but {}", i, mass,
+                                requirement(bounds::mass, mass)));
   return mass;
 }
 
