@@ -41,6 +41,7 @@ def vitrel(*words):
 
 def results(file, *settings):
     summary = vitrel("analyze", file, "-o", f"{file}.results.h5", *settings)
+    assert ("seed" in summary) != ("import" in summary), summary
     with h5py.File(f"{file}.results.h5") as found:
         tables = {f"{table}/{name}": found[table][name][:] for table, names in TABLES.items() for name in names}
     return summary.get("import"), tables

@@ -474,6 +474,7 @@ Json analysis_summary(const AnalysedRun& run) {
     if (!column.error.empty()) summary[column.name + "_error"] = column.error.front();
   }
   if (run.glass) summary.update(glass_summary(*run.glass));
+  if (run.results.text("seed").empty()) summary.erase("seed");  // of another program
   return summary;
 }
 
