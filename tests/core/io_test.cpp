@@ -547,7 +547,7 @@ TEST_F(TrajectoryFile, MassesAndSpeciesMustMakeSense) {
   EXPECT_EQ(message_about({1, 2}, {0, 1}), "(no FileError)");
   for (const double mass : {0., -1., double{NAN}, double{INFINITY}})
     EXPECT_THAT(message_about({1, mass}, {0, 0}),
-                testing::AnyOf(HasSubstr("frame 0: particle 1 has the mass "),
+                testing::AnyOf(HasSubstr("frame 0: the mass of particle 1 is "),
                                HasSubstr("water/mass has numbers that are not finite")));
   EXPECT_EQ(message_about({1, 1}, {2'147'483'647, -1}), "(no FileError)");
   EXPECT_EQ(TrajectoryReader(file("foreign.h5")).species_names(),
