@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/mount.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -193,8 +194,11 @@ TEST(Sweep, StoppedDuringTheAnalysisItContinues) {
   std::filesystem::copy_file(job / "results.h5", folder / "before.h5");
   for (const char* file : {"done.json", "analyze.json", "results.h5"})
     std::filesystem::remove(job / file);
-  // The child's summary is the only file that is begun.
-  const auto begins = [&job] { return !partial_files(job).empty(); };
+  const auto begins = [&job] {
+    return std::ranges::any_of(partial_files(job), [](const std::string& name) {
+      return name.starts_with("analyze.json");
+    });
+  };
   for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
     const Outcome stopped = run_and_signal(folder.path(), sweep, begins, signal);
     EXPECT_EQ(stopped.code, 5);
