@@ -34,8 +34,19 @@ def read(*words):
     return summary
 
 
+def has_frames(count):
+    """A file that has just appeared has none, which `check` says."""
+    if not pathlib.Path("run.h5").exists():
+        return False
+    done = vitrel("check", "run.h5", "--json")
+    if "has no frame to check" in done.stderr:
+        return False
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)["frames"] >= count
+
+
 def wait_for_frames(count):
-    while not pathlib.Path("run.h5").exists() or read("check", "run.h5")["frames"] < count:
+    while not has_frames(count):
         time.sleep(0.1)
 
 
