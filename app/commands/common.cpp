@@ -47,6 +47,10 @@ void require_folder_of(const fs::path& output) {
                                 folder.string()));
 }
 
+std::string stopped_summary(const fs::path& output) {
+  return json_text({{"output", output.string()}, {"complete", false}}, 2) + '\n';
+}
+
 constexpr std::string_view error_suffix = "_error";
 
 /// Whether the value is the error of another one, and is printed with that.
@@ -157,8 +161,12 @@ void print_summary(const PrintOptions& options, const Json& summary) {
   }
 }
 
-Json stopped_summary(const fs::path& output) {
-  return {{"output", output.string()}, {"complete", false}};
+void print_stopped(const PrintOptions& options, const fs::path& output) {
+  if (options.json) print_text(stopped_summary(output));
+}
+
+void print_stopped_if_ended(const PrintOptions& options, const fs::path& output) {
+  if (options.json) set_summary_of_stop(stopped_summary(output));
 }
 
 void remark(const PrintOptions& options, const std::string& line) {

@@ -43,8 +43,10 @@ void require_new(const std::filesystem::path& output);
 /// error" where `key_error` is in the summary, too.
 void print_summary(const PrintOptions& options, const Json& summary);
 
-/// The summary of work that was stopped before there was anything else to say of it.
-Json stopped_summary(const std::filesystem::path& output);
+/// If JSON is asked for, the summary of work that was stopped before there was anything else to say of it: printed now, or
+/// by whatever ends the program at once (set_summary_of_stop).
+void print_stopped(const PrintOptions& options, const std::filesystem::path& output);
+void print_stopped_if_ended(const PrintOptions& options, const std::filesystem::path& output);
 
 /// One line on standard error, unless quiet.
 void remark(const PrintOptions& options, const std::string& line);

@@ -134,7 +134,7 @@ int prepare_state(const PrepareOptions& options, const PrepareRequest& request, 
   session.clear();
   set_summary_of_stop("");
   if (!quality) {
-    if (options.print.json) print_summary(options.print, stopped_summary(options.output));
+    print_stopped(options.print, options.output);
     remark(options.print, "stopped; the same command continues");
     return stopped;
   }
@@ -165,7 +165,7 @@ int prepare_command(const PrepareOptions& options) {
                                options.output, options.command_line, options.threads};
   require_new(options.output);
   Session session(options.print.quiet, options.wall_time);
-  if (options.print.json) set_summary_of_stop(json_text(stopped_summary(options.output), 2) + "\n");
+  print_stopped_if_ended(options.print, options.output);
   return prepared_dimension(request) == 2 ? prepare_state<2>(options, request, session)
                                           : prepare_state<3>(options, request, session);
 }

@@ -7,7 +7,6 @@
 #include "app/commands/common.h"
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
-#include "core/io/json.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/run/run.h"
 
@@ -23,8 +22,8 @@ int run_and_print(const RunOptions& options, const RunRequest& request, Session&
   const bool has_begun = outcome.state.configuration.size() > 0;
   if (has_begun)
     print_summary(options.print, run_summary(request, outcome));
-  else if (options.print.json)
-    print_summary(options.print, stopped_summary(options.output));
+  else
+    print_stopped(options.print, options.output);
   if (has_begun && outcome.state.counters.collisions == 0)
     remark(options.print,
            fmt::format("no particle collided in {:g} units of time, in which a particle moves by "
@@ -50,7 +49,7 @@ int run_command(const RunOptions& options) {
     return success;
   }
   Session session(options.print.quiet, options.wall_time);
-  if (options.print.json) set_summary_of_stop(json_text(stopped_summary(options.output), 2) + "\n");
+  print_stopped_if_ended(options.print, options.output);
   return run_dimension(request) == 2 ? run_and_print<2>(options, request, session)
                                      : run_and_print<3>(options, request, session);
 }

@@ -11,8 +11,8 @@ namespace vitrel {
 /// "dumb".
 bool is_terminal(int descriptor);
 
-/// Messages quote what files and command lines hold: control characters, with which a text could rewrite the terminal, as
-/// \x1b. Lines stay lines.
+/// The text with its control characters shown as \x1b and so on. Messages quote files and command lines, which could
+/// otherwise rewrite the terminal. Line breaks and tabs stay.
 std::string visible(std::string_view text);
 
 enum class Style { heading, error };  ///< bold; bold and red

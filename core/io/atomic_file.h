@@ -3,11 +3,12 @@
 #include <filesystem>
 
 /// @file
-/// What appears under its name when it is complete. Until then it is called `<path>.<random>.partial`, a name that no file
-/// had, and lies in the same folder. Only what this process made is ever deleted: what a killed one left stays.
+/// Files and folders that appear under their names when they are complete. Until then they are called
+/// `<path>.<random>.partial`, a name that nothing else had, and lie in the same folder. A process deletes only what it made
+/// itself; what a killed one left stays.
 namespace vitrel {
 
-/// An empty file, or a folder, of such a name; no link is followed. FileError.
+/// Makes an empty file, or a folder, of such a name, and follows no link. FileError.
 std::filesystem::path make_partial_file(const std::filesystem::path& path);
 std::filesystem::path make_partial_folder(const std::filesystem::path& path);
 

@@ -35,22 +35,9 @@ class BoundsCheck final : public FieldVisitor {
       list.describe(k, check);
     }
   }
-  void value_or_table(const Field& field, bool& is_table, const Inside& value,
-                      const Inside& inside) override {
-    if (is_table)
-      table(field, TableStyle::inline_table, inside);
-    else
-      value(*this);
-  }
   void array(const Field& field, const List& entries) override {
     BoundsCheck check(below(field.key));
     for (std::size_t k = 0; k < entries.size(); ++k) entries.describe(k, check);
-  }
-  void optional(const Field&, bool& present, const Inside& inside) override {
-    if (present) inside(*this);
-  }
-  void when(bool condition, const std::string&, const Inside& inside) override {
-    if (condition) inside(*this);
   }
   void grid(const Field&, ParameterGrid&) override {}
 

@@ -74,19 +74,6 @@ class InlineWriter final : public ValueVisitor {
     }
     put(field, fmt::format("[{}]", fmt::join(tables, ", ")), "");
   }
-  void value_or_table(const Field& field, bool& is_table, const Inside& value,
-                      const Inside& inside) override {
-    if (is_table)
-      table(field, TableStyle::inline_table, inside);
-    else
-      value(*this);
-  }
-  void optional(const Field&, bool& present, const Inside& inside) override {
-    if (present) inside(*this);
-  }
-  void when(bool condition, const std::string&, const Inside& inside) override {
-    if (condition) inside(*this);
-  }
   void grid(const Field& field, ParameterGrid& grid) override {
     std::vector<std::string> rows;
     for (const auto& [key, values] : grid)

@@ -70,15 +70,24 @@ class FieldVisitor {
   virtual void table(const Field&, TableStyle, const Inside& inside) = 0;
   virtual void list(const Field&, const List& list) = 0;
   /// A value, or a table of fields instead; `is_table` tells which. `value` names the one field that it is otherwise.
-  virtual void value_or_table(const Field&, bool& is_table, const Inside& value,
-                              const Inside& table) = 0;
+  virtual void value_or_table(const Field& field, bool& is_table, const Inside& value,
+                              const Inside& inside) {
+    if (is_table)
+      table(field, TableStyle::inline_table, inside);
+    else
+      value(*this);
+  }
   /// An array; `describe` names the one field of each entry, whose key is its number.
   virtual void array(const Field&, const List& entries) = 0;
   /// A field that may be left out; `present` tells whether it is there. `inside` names the one
   /// field.
-  virtual void optional(const Field&, bool& present, const Inside& inside) = 0;
+  virtual void optional(const Field&, bool& present, const Inside& inside) {
+    if (present) inside(*this);
+  }
   /// Fields that exist only under `condition`, which `label` puts in words ("method = \"insert\"").
-  virtual void when(bool condition, const std::string& label, const Inside& inside) = 0;
+  virtual void when(bool condition, const std::string& /*label*/, const Inside& inside) {
+    if (condition) inside(*this);
+  }
   virtual void grid(const Field&, ParameterGrid&) = 0;
 
   template <class Int>

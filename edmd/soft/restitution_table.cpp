@@ -90,7 +90,7 @@ void write_array(h5::Group& group, const std::string& name, const std::vector<T>
   series.write_frame(0, std::span<const T>(values));
 }
 
-/// Of all numbers: the checksums of HDF5 belong to whoever writes the file, and change with it.
+/// The checksum of all numbers. A program that changes the file makes the checksums of HDF5 right again, but not this one.
 template <class Content>
 std::uint64_t checksum_of(const Content& content) {
   WordChecksum checksum;

@@ -81,7 +81,8 @@ void validate_materials(const Parameters& parameters) {
   }
 }
 
-/// Of particles of size 1, within a factor of some ten; infinite of particles at rest.
+/// The time between two collisions of a particle of size 1, right within a factor of ten or so. It is infinite if all
+/// particles are at rest.
 double time_between_collisions(const Parameters& parameters) {
   double fastest = 0;
   for (const Species& species : parameters.species)

@@ -4,8 +4,8 @@
 #include "workflow/configuration/rules.h"
 
 /// @file
-/// The sections of the parameter file. For each there is a function that names its fields and one that throws
-/// BadValue for the first impossible value.
+/// The sections of the parameter file. For each there is a function that names its fields with their bounds, and one that
+/// throws BadValue for values that do not suit each other.
 namespace vitrel {
 
 /// The fields of `part`, as `describe` names them.

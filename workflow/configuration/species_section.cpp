@@ -75,15 +75,6 @@ void validate_shape(const Species& p, int dimension, const std::string& path) {
   validate_distribution(*p.aspect_ratio, 1, path + ".aspect_ratio");
 }
 
-void validate_box_aspect(const SystemParameters& p, const Rules& rules) {
-  const std::vector<double>& ratios = p.box_aspect;
-  const auto several = static_cast<std::size_t>(p.dimension) - 1;
-  rules.require(
-      ratios.size() == 1 || ratios.size() == several, "box_aspect",
-      fmt::format("has {} entries, but must be {}", ratios.size(),
-                  p.dimension == 2 ? "one number, L_y/L_x" : "one number or [L_y/L_x, L_z/L_x]"));
-}
-
 }  // namespace
 
 void describe_system(SystemParameters& p, FieldVisitor& visit) {
@@ -163,7 +154,13 @@ void describe_species(Species& p, FieldVisitor& visit) {
 }
 
 void validate_system(const SystemParameters& p) {
-  validate_box_aspect(p, Rules("system"));
+  const Rules rules("system");
+  const std::vector<double>& ratios = p.box_aspect;
+  const auto several = static_cast<std::size_t>(p.dimension) - 1;
+  rules.require(
+      ratios.size() == 1 || ratios.size() == several, "box_aspect",
+      fmt::format("has {} entries, but must be {}", ratios.size(),
+                  p.dimension == 2 ? "one number, L_y/L_x" : "one number or [L_y/L_x, L_z/L_x]"));
 }
 
 void validate_species(const std::vector<Species>& species, int dimension) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <tuple>
 
 #include "core/io/provenance.h"
 #include "core/state/in_space.h"
@@ -73,7 +72,7 @@ using CommonShape = std::optional<Vec3>;
 template <int Dim>
 std::string shape_text(const CommonShape& axes) {
   if (!axes) return "{}";
-  const auto [a, b, c] = std::tuple(axes->x(), axes->y(), axes->z());
+  const double a = axes->x(), b = axes->y(), c = axes->z();
   return Dim == 3 && a == b && b == c
              ? fmt::format(R"({{"type":"Sphere","diameter":{}}})", 2 * a)
              : fmt::format(R"({{"type":"Ellipsoid","a":{},"b":{},"c":{}}})", a, b, c);
@@ -157,7 +156,8 @@ void GsdSink<Dim>::write_types(const Configuration<Dim>& configuration) {
   write_own_shapes(configuration, common);
 }
 
-/// Of particles whose species says no shape: diameters if they are round, else semi-axes.
+/// Writes the sizes of particles that differ within their species: diameters if all such particles are round, else
+/// semi-axes.
 template <int Dim>
 void GsdSink<Dim>::write_own_shapes(const Configuration<Dim>& configuration,
                                     const std::vector<CommonShape>& common) {

@@ -1,5 +1,4 @@
 #include "core/io/foreign/foreign_formats.h"
-#include "core/io/text_file.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/io/text_file.h"
 
 namespace vitrel {
 namespace {

@@ -48,10 +48,10 @@ extern const ForeignFormat h5md_format;
 
 /// GSD in the schema of HOOMD-blue (https://gsd.readthedocs.io), file layers 1 and 2. Of particles: N, types, typeid,
 /// type_shapes ("Sphere", "Disk" and "Ellipsoid"), diameter, position, orientation, image, mass, moment_inertia,
-/// velocity and angmom; and configuration/step, dimensions and box, log/time, and log/particles/semiaxes, which vitrel
-/// writes of species of several shapes (version 0.2: types "A#1", "A#2" of one species). What a frame does not have is as in the
-/// first, and else the default of the schema, but for diameters, for steps, and for images that no frame after the first has:
-/// these are unknown. Most numbers are in single precision.
+/// velocity and angmom; configuration/step, dimensions and box; log/time; and log/particles/semiaxes, which vitrel writes
+/// for species of several shapes (version 0.2 wrote the types "A#1", "A#2" instead). What a frame does not have is as in
+/// the first frame, or else the default of the schema, but for diameters, for steps, and for images that no frame after the
+/// first has: these are unknown. Most numbers are in single precision.
 extern const ForeignFormat gsd_format;
 
 /// Extended XYZ, frame after frame: the number of particles; keys (Lattice, Origin, Properties, pbc, Time, Step or
