@@ -144,6 +144,7 @@ class CommandLine : public ProgramCommandLine {
                "State file to write, with its quality report <state>.quality.json beside it")
         ->required();
     add_start(sub, prepare_.start);
+    sub.add_flag("--dry-run", prepare_.dry_run, "Print what would be done");
     add_threads(sub, prepare_.threads, "Threads for Monte Carlo (1)");
     add_wall_time(sub, prepare_.wall_time);
     add_print(sub, prepare_.print);

@@ -134,13 +134,13 @@ double cubic_root_of_normal(double x) {
 
 double root(double x, int n) {
   if (n == 2) return std::sqrt(x);
-  const double size = std::abs(x);
-  if (!(size > 0 && size <= std::numeric_limits<double>::max())) return x;
-  constexpr double small = 0x1p-900,
-                   scale = 0x1p300;  // so that neither cubes nor their quotients leave the range
-  if (size < small) return root(x * scale, 3) / 0x1p100;
-  if (size > 1 / small) return root(x / scale, 3) * 0x1p100;
-  return std::copysign(cubic_root_of_normal(size), x);
+  if (x == 0 || !std::isfinite(x)) return x;
+  // Of a number between 1/2 and 4, so that the roots of x and 8 x differ by exactly 2.
+  int exponent;
+  const double significand = std::frexp(std::abs(x), &exponent);
+  const int third = (exponent + 3000) / 3 - 1000;
+  const double root = cubic_root_of_normal(std::ldexp(significand, exponent - 3 * third));
+  return std::copysign(std::ldexp(root, third), x);
 }
 
 }  // namespace vitrel

@@ -75,7 +75,7 @@ double exponential(double x);
 double exponential_minus_one(double x);
 /// The angle of the vector (x, y), from −π to π, to within 3 units; 0 for the zero vector.
 double polar_angle(double y, double x);
-/// The square root for n = 2, the cubic root for n = 3, to within 1 unit.
+/// The square root for n = 2, the cubic root for n = 3, to within 1 unit; that of 4ᵏ x or 8ᵏ x is exactly 2ᵏ times that of x.
 double root(double x, int n);
 /// xⁿ for n ≥ 0, by n products.
 template <class T>

@@ -8,6 +8,7 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
+#include "core/state/typical_scales.h"
 #include "core/tolerances.h"
 #include "edmd/brownian.h"
 
@@ -23,6 +24,8 @@ constexpr double max_step_compression = 0.05;
 constexpr double retry_expansion = 0.1;
 /// Growth with enough collisions to measure the pressure, even of a gas.
 constexpr double min_pressure_growth = 0.005;
+/// From this reduced pressure on, a packing fraction more than 30/Z away is out of reach.
+constexpr double nearly_jammed = 1e4, within_reach = 30;
 
 /// The time average of a temperature that rises exponentially from 1 to `end`.
 double mean_of_rise(double end) {
@@ -43,6 +46,7 @@ class Growth {
         options_(options),
         state_(state),
         shapes_(configuration.shape),
+        typical_time_(typical_time(configuration)),
         start_time_(configuration.time),
         start_fraction_(vitrel::packing_fraction(configuration)),
         translations_(0.5 * Dim * (static_cast<double>(configuration.size()) - 1)),
@@ -68,8 +72,9 @@ class Growth {
 
  private:
   double packing_fraction() const { return vitrel::packing_fraction(configuration_); }
+  /// γ
   double rate() const {
-    return std::ldexp(options_.growth_rate, -static_cast<int>(state_.retries));
+    return std::ldexp(options_.growth_rate / typical_time_, -static_cast<int>(state_.retries));
   }
 
   void make_engine_at_rate() {
@@ -82,7 +87,7 @@ class Growth {
     if (!options_.packing_fraction && !options_.reduced_pressure)
       throw UserError("growth has no target: give a packing fraction or a reduced pressure");
     if (rate() == 0 || !std::isfinite(rate()))
-      throw UserError("growth at the rate " + std::to_string(rate()) +
+      throw UserError("growth at the rate " + std::to_string(options_.growth_rate) +
                       " is impossible: the rate must be finite and not 0");
     if (translations_ + rotations_ == 0)
       throw UserError("growth needs particles that can move; a lone disk or sphere cannot");
@@ -92,7 +97,7 @@ class Growth {
             ? !at_packing_fraction() && shrinks != (*options_.packing_fraction < start_fraction_)
             : shrinks;
     if (away)
-      throw UserError("growth at the rate " + std::to_string(rate()) +
+      throw UserError("growth at the rate " + std::to_string(options_.growth_rate) +
                       " leads away from its target, starting at a packing fraction of " +
                       std::to_string(start_fraction_));
   }
@@ -198,7 +203,14 @@ class Growth {
     return options_.reduced_pressure && rate() > 0 &&
            state_.reduced_pressure >= *options_.reduced_pressure;
   }
-  bool jammed() const { return is_stalled_ || state_.reduced_pressure > max_reduced_pressure; }
+  bool jammed() const {
+    return is_stalled_ || out_of_reach() || state_.reduced_pressure > max_reduced_pressure;
+  }
+  bool out_of_reach() const {
+    const double z = state_.reduced_pressure;
+    return options_.packing_fraction && !options_.reduced_pressure && z >= nearly_jammed &&
+           *options_.packing_fraction > packing_fraction() * (1 + within_reach / z);
+  }
 
   // In logarithms, in which growth is nearly uniform.
   double progress() const {
@@ -234,6 +246,7 @@ class Growth {
   const GrowthOptions& options_;
   GrowthState& state_;
   const std::vector<Solid<Dim>> shapes_;
+  const double typical_time_;
   const double start_time_, start_fraction_;
   const double translations_, rotations_;  // energies at kT = 1, half the degrees of freedom
   std::unique_ptr<Engine<Dim>> engine_;

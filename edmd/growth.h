@@ -14,7 +14,9 @@
 ///
 ///     a_i(t) = (1 + γ t) a_i,   b_i(t) = (1 + γ t) b_i …,   φ(t) = (1 + γ t)^D φ(0)
 ///
-/// in D dimensions. Conventions: masses are constant, moments of inertia are those of the current axes, and ω is
+/// in D dimensions. The options give γ τ, τ the typical time of the particles (typical_scales.h): one rate means the
+/// same, and costs the same, in any unit of length and mass.
+/// Conventions: masses are constant, moments of inertia are those of the current axes, and ω is
 /// constant in flight (also for scalene ellipsoids: ellipsoid.h). In a collision the surface speed s = γ (h₁ + h₂)
 /// along the normal (h the support functions) adds to the approach speed; every impulse J does the work J s, and the
 /// particles heat up.
@@ -29,8 +31,8 @@
 ///      its own factor, as when velocities are drawn. With a common factor the two would drift apart if they are weakly
 ///      coupled, since collisions of nearly round particles heat only translation.
 /// At the end of a block all lengths are divided by 1 + γ t: growth is equivalent to shrinking the box, and the
-/// particles have the sizes of their species again. With kT = 1 the motion at lengths a(t) is the same in the time
-/// unit √(m a b/kT) for all t, so γ is relative to the current size, in this time unit of the reference species.
+/// particles have the sizes of their species again. With kT = 1 the motion at lengths a(t) is the same in the unit τ of
+/// time for all t, so γ is relative to the current size.
 ///
 /// Near jamming all gaps shrink together and Z ≈ C/(1 − φ/φ_J). For ideal jamming C is the number of degrees of
 /// freedom per particle, less the share of rattlers (disks 2, ellipses and spheres 3, spheroids 5, scalene
@@ -42,7 +44,11 @@
 /// directions, as if all lengths shrank (convex particles that do not overlap stay so), velocities are drawn anew, and γ is
 /// halved. Few particles jam at widely scattered packing fractions, which rise as γ falls.
 ///
-/// Growth always terminates, since φ < 1. Validity: |γ| well below 1 (otherwise the surfaces are faster than the
+/// A target packing fraction beyond jamming cannot be reached. From Z = 10⁴ on, where 1 − φ/φ_J is at most 6 · 10⁻⁴, the
+/// particles count as jammed if the target is more than 30/Z, five times as far, above the packing fraction; otherwise,
+/// or without such a target, at `max_reduced_pressure`.
+///
+/// Growth always terminates, since φ < 1. Validity: |γ τ| well below 1 (otherwise the surfaces are faster than the
 /// particles, and Z is meaningless), Z up to `max_reduced_pressure`.
 /// Sources: lubachevsky1990, donev2005.
 namespace vitrel {

@@ -103,7 +103,7 @@ struct DynamicsOptions {
 inline constexpr double max_reduced_pressure = 1e9;
 
 struct GrowthOptions {
-  double growth_rate = 1e-3;               ///< γ, relative, per unit of time; negative to shrink
+  double growth_rate = 1e-3;               ///< γ τ, τ the typical time; negative to shrink
   std::optional<double> packing_fraction;  ///< target (to tolerance::given_fraction)
   std::optional<double> reduced_pressure;  ///< ends with the first block that reaches it
   std::uint64_t seed = 1;

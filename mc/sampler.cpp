@@ -8,13 +8,18 @@
 #include <span>
 
 #include "core/parallel.h"
+#include "core/state/typical_scales.h"
 
 namespace vitrel {
 
 template <int Dim>
 Sampler<Dim>::Sampler(Configuration<Dim>& configuration, std::uint64_t seed,
                       const SweepState& state, int threads)
-    : particles_(configuration), threads_(threads), seed_(seed), state_(state) {}
+    : particles_(configuration), threads_(threads), seed_(seed), state_(state) {
+  constexpr double first_step = 0.1;
+  if (state_.translation.size == 0)
+    state_.translation.size = first_step * typical_length(configuration);
+}
 
 template <int Dim>
 void Sampler<Dim>::set_steps(double translation, double rotation) {

@@ -68,7 +68,7 @@ struct StepSize {
 struct SweepState {
   std::uint64_t next_sweep = 0;  ///< number of the next sweep, which selects its random stream
   std::uint64_t sweeps = 0;      ///< completed
-  StepSize translation{0.1}, rotation{0.1};
+  StepSize translation{0}, rotation{0.1};  ///< 0: a tenth of the typical length
   TrialCounts counts = {};
 };
 

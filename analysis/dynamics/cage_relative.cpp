@@ -1,7 +1,9 @@
 #include "analysis/dynamics/cage_relative.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "analysis/dynamics/bessel_j0.h"
 #include "analysis/dynamics/displacement.h"
@@ -44,6 +46,11 @@ std::vector<bool> origins_of(const std::vector<Lag>& lags, std::size_t frames) {
   return is_origin;
 }
 
+void tell(const ProgressReport& report, std::size_t done, std::size_t of, const char* quantity) {
+  const double share = static_cast<double>(done) / static_cast<double>(of);
+  if (report) report({share, static_cast<double>(done), quantity});
+}
+
 /// All positions, and the cages at the origins.
 class Recording {
  public:
@@ -54,8 +61,7 @@ class Recording {
       const Configuration2& frame = trajectory.read(k);
       for (std::size_t i = 0; i < frame.size(); ++i) positions_[k].push_back(frame.unwrapped(i));
       if (is_origin[k]) cages_[k] = cages(frame);
-      const auto done = static_cast<double>(k + 1);
-      if (report) report({done / static_cast<double>(trajectory.frames()), done, "frames"});
+      tell(report, k + 1, trajectory.frames(), "frames");
     }
   }
 
@@ -140,9 +146,14 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
   const std::size_t n = recording.particles();
   const BesselJ0 bessel;
   std::vector<std::optional<LagResult>> sums(lags.size());
+  const auto caller = std::this_thread::get_id();
+  std::atomic<std::size_t> done = 0;
   in_parallel(lags.size(), options.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t l = begin; l < end; ++l)
+    for (std::size_t l = begin; l < end; ++l) {
       sums[l] = measure(recording, lags[l], result.wave_numbers, options.overlap_distance, bessel);
+      const std::size_t so_far = ++done;
+      if (std::this_thread::get_id() == caller) tell(report, so_far, lags.size(), "lags");
+    }
   });
   for (std::size_t l = 0; l < lags.size(); ++l) {
     result.lag.push_back(lags[l].time);

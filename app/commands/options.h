@@ -72,6 +72,7 @@ struct PrepareOptions {
   ParameterOptions source;
   std::filesystem::path output;
   StartOptions start;
+  bool dry_run = false;  ///< print what would be done
   int threads = 1;
   double wall_time = 0;      ///< seconds; 0: no limit
   std::string command_line;  ///< for the provenance

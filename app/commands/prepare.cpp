@@ -11,6 +11,7 @@
 #include "core/io/h5md.h"
 #include "core/io/json.h"
 #include "workflow/prepare/packing_quality.h"
+#include "workflow/prepare/preparation_plan.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality_file.h"
 
@@ -164,6 +165,10 @@ int prepare_command(const PrepareOptions& options) {
   const PrepareRequest request{load_parameters(parameter_source(options.source, options.start)),
                                options.output, options.command_line, options.threads};
   require_new(options.output);
+  if (options.dry_run) {
+    print_text(preparation_plan(request));
+    return success;
+  }
   Session session(options.print.quiet, options.wall_time);
   print_stopped_if_ended(options.print, options.output);
   return prepared_dimension(request) == 2 ? prepare_state<2>(options, request, session)

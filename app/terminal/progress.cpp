@@ -11,11 +11,25 @@
 namespace vitrel {
 namespace {
 
-double seconds_between(auto from, auto to) {
-  return std::chrono::duration<double>(to - from).count();
+std::string left_text(const std::optional<double>& seconds) {
+  return seconds ? ", " + duration_text(*seconds) + " left" : "";
 }
 
 }  // namespace
+
+void Pace::note(const Mark& now) {
+  constexpr double share = 0.25;
+  now_ = now;
+  if (now.seconds - next_.seconds < share * now.seconds) return;
+  from_ = next_;
+  next_ = now;
+}
+
+std::optional<double> Pace::left() const {
+  const double advance = now_.progress.fraction - from_.progress.fraction;
+  if (!(advance > 0)) return std::nullopt;
+  return elapsed() * (1 - now_.progress.fraction) / advance;
+}
 
 ProgressDisplay::Mode ProgressDisplay::mode(bool quiet) {
   if (quiet) return Mode::silent;
@@ -25,29 +39,26 @@ ProgressDisplay::Mode ProgressDisplay::mode(bool quiet) {
 void ProgressDisplay::begin(const std::string& label) {
   clear();
   label_ = label;
-  first_.reset();
+  pace_.reset();
 }
 
 void ProgressDisplay::show(const Progress& progress) {
   if (mode_ == Mode::silent) return;
   const Clock::time_point now = Clock::now();
-  if (!first_) {
+  if (!pace_) {
     // Rates count from here: a continued run has done its first part long ago.
-    first_ = progress;
-    started_ = shown_ = now;
+    pace_.emplace(Pace::Mark{0, progress});
+    started_ = now;
+    shown_ = 0;
     return;
   }
-  if (seconds_between(shown_, now) < (mode_ == Mode::terminal ? 0.2 : 10)) return;
-  shown_ = now;
-  const double elapsed = seconds_between(started_, now);
-  const double rate = (progress.value - first_->value) / elapsed;
-  const double advance = progress.fraction - first_->fraction;
-  const std::string left =
-      advance > 0 ? ", " + duration_text(elapsed * (1 - progress.fraction) / advance) + " left"
-                  : "";
+  const double seconds = std::chrono::duration<double>(now - started_).count();
+  if (seconds - shown_ < (mode_ == Mode::terminal ? 0.2 : 10)) return;
+  shown_ = seconds;
+  pace_->note({seconds, progress});
   const std::string line =
       fmt::format("{} {:.1f} %, {} {:.5g} ({:.3g}/s){}", label_, 100 * progress.fraction,
-                  progress.quantity, progress.value, rate, left);
+                  progress.quantity, progress.value, pace_->rate(), left_text(pace_->left()));
   if (mode_ == Mode::terminal) {
     // Return to the start of the line, write, erase what is left of the line before.
     fmt::print(stderr, "\r{}\033[K", line);

@@ -8,6 +8,29 @@
 
 namespace vitrel {
 
+/// How fast work advances, over the last quarter to half of its time: of work that slows down, more and more is left.
+class Pace {
+ public:
+  struct Mark {
+    double seconds = 0;  ///< since some start
+    Progress progress = {};
+  };
+
+  explicit Pace(const Mark& start) : from_(start), next_(start) {}
+
+  void note(const Mark& now);
+  double elapsed() const { return now_.seconds - from_.seconds; }
+  /// Of the value, per second.
+  double rate() const { return (now_.progress.value - from_.progress.value) / elapsed(); }
+  /// Seconds until all is done; nothing if the work does not advance.
+  std::optional<double> left() const;
+
+ private:
+  Mark from_;  // the rate is that since then
+  Mark next_;  // takes its place
+  Mark now_;
+};
+
 /// Shows how far a piece of work has come, with rate and time left, on standard error: one line
 /// that is rewritten on a terminal, a plain line every ten seconds elsewhere.
 class ProgressDisplay {
@@ -32,8 +55,9 @@ class ProgressDisplay {
 
   Mode mode_;
   std::string label_;
-  std::optional<Progress> first_;
-  Clock::time_point started_{}, shown_{};
+  std::optional<Pace> pace_;
+  Clock::time_point started_{};
+  double shown_ = 0;  // seconds after the start
   bool line_is_open_ = false;
 };
 

@@ -219,7 +219,7 @@ class AxisSearch {
     const double safe = std::min(trial, detail::first_root(margin, rate, bound));
     if (here_.gap > detail::touching * contact_gap_ || largest == 0) return safe;
     // The pair slides at the contact gap: time must advance, and the gap falls by at most an eighth of it.
-    return std::max(safe, std::min(1.0, std::sqrt(0.25 * contact_gap_ / largest)));
+    return std::max(safe, std::min(flight_.short_time(), std::sqrt(0.25 * contact_gap_ / largest)));
   }
 
   // Advances by `duration` and rotates the axis to its predicted optimum.

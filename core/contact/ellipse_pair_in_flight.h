@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -50,6 +51,13 @@ class EllipsePairInFlight {
   /// scale, infinite if none grows.
   double doubling_time(double gap) const {
     return (reduce(a_ * pair_.size) + gap) / reduce(a_ * max(growth_, 0));
+  }
+
+  /// A time in which sizes change by a thousandth at most; longer than any if they are constant.
+  double short_time() const {
+    constexpr double little = 1e-3, least = 1e-300;
+    const SimdPair rate = abs(growth_) / pair_.size;
+    return little / std::max({rate[0], rate[1], least});
   }
 
   double time() const { return time_; }
@@ -125,10 +133,10 @@ class EllipsePairInFlight {
     return reduce(pair_.size * rotation + growing - cross_term(g));
   }
 
-  /// The maximum of acceleration_bound over all axes and durations up to 1.
+  /// The maximum of acceleration_bound over all axes and durations up to short_time.
   double largest_acceleration() const {
     if constexpr (!grows) return reduce(max_rotation_term_);
-    return reduce((pair_.size + abs(growth_)) * max_rotation_term_ +
+    return reduce((pair_.size + short_time() * abs(growth_)) * max_rotation_term_ +
                   2 * abs(growth_ * omega_) * sqrt(pair_.aa_minus_bb));
   }
 

@@ -83,14 +83,15 @@ inline AxesOf<double> axes_of(const Quaternion& orientation, const Vec3& semi_ax
 }
 
 /// Rotates unit vectors by one Newton step on the sphere, at most 1/2: C⁻¹ s in the plane of e₁ and e₂, or
-/// along the gradient s where C is not positive definite.
+/// along s/h where C is not positive definite, s the gradient and h the sum of the heights.
 VITREL_INLINE BatchVec3 turned(const AxisOf<SimdBatch>& axis, const SimdBatch& s1,
                                const SimdBatch& s2, const SimdBatch& c11, const SimdBatch& c12,
-                               const SimdBatch& c22) {
+                               const SimdBatch& c22, const SimdBatch& h) {
   constexpr double longest = 0.5;
   const SimdBatch det = c11 * c22 - c12 * c12;
   const auto peaked = det > 0 && c11 + c22 > 0;
-  SimdBatch step1 = s1, step2 = s2;
+  const SimdBatch inverse = 1. / h;
+  SimdBatch step1 = inverse * s1, step2 = inverse * s2;
   step1 = select(peaked, (c22 * s1 - c12 * s2) / det, step1);
   step2 = select(peaked, (c11 * s2 - c12 * s1) / det, step2);
   const SimdBatch length = sqrt(step1 * step1 + step2 * step2);

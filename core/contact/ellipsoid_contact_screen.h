@@ -110,9 +110,10 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
           (common_.size + std::abs(growth) * horizon) * acceleration + 2 * growth * turning;
     }
     set_times(detail::first_root(gap - min_gap_, rate, acceleration, horizon), horizon, count);
-    n_.store(detail::turned(
-        axis, dot(axis.e1, d) - sized(one.s1 + two.s1), dot(axis.e2, d) - sized(one.s2 + two.s2),
-        gap + sized(one.h11 + two.h11), sized(one.h12 + two.h12), gap + sized(one.h22 + two.h22)));
+    n_.store(detail::turned(axis, dot(axis.e1, d) - sized(one.s1 + two.s1),
+                            dot(axis.e2, d) - sized(one.s2 + two.s2),
+                            gap + sized(one.h11 + two.h11), sized(one.h12 + two.h12),
+                            gap + sized(one.h22 + two.h22), sized(one.height + two.height)));
   }
 
  private:

@@ -43,7 +43,7 @@ class GapBatch<Ellipsoid> {
       if (all_of(largest > limit_)) break;
       trial = detail::turned(axis, dot(axis.e1, d) - (one.s1 + two.s1),
                              dot(axis.e2, d) - (one.s2 + two.s2), gap + (one.h11 + two.h11),
-                             one.h12 + two.h12, gap + (one.h22 + two.h22));
+                             one.h12 + two.h12, gap + (one.h22 + two.h22), one.height + two.height);
     }
     gap_.store(largest);
     n_.store(best);

@@ -166,8 +166,11 @@ struct GapAlongAxis3 : SupportOf<SimdPair> {
   Tangent adjugate(const Tangent& t) const {
     return {c22 * t[0] - c12 * t[1], c11 * t[1] - c12 * t[0]};
   }
-  /// The Newton step to the maximum; the gradient where g is not concave.
-  Tangent newton() const { return is_concave() ? Tangent(adjugate(slope) / determinant()) : slope; }
+  /// The Newton step to the maximum; where g is not concave the gradient over h₁ + h₂.
+  Tangent newton() const {
+    return is_concave() ? Tangent(adjugate(slope) / determinant())
+                        : Tangent(slope / reduce(height));
+  }
   /// The gain of that step in g, to second order (meaningful only if concave).
   double gain() const { return 0.5 * dot(slope, newton()); }
 };

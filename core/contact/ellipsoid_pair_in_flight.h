@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/contact/ellipsoid_gap.h"
 #include "core/contact/ellipsoid_pair_rotation.h"
 #include "core/geometry/body.h"
@@ -41,6 +44,13 @@ class EllipsoidPairInFlight {
   /// scale, infinite if none grows.
   double doubling_time(double gap) const {
     return (reduce(circumradius_ * pair_.size) + gap) / reduce(circumradius_ * max(growth_, 0));
+  }
+
+  /// A time in which sizes change by a thousandth at most; longer than any if they are constant.
+  double short_time() const {
+    constexpr double little = 1e-3, least = 1e-300;
+    const SimdPair rate = abs(growth_) / pair_.size;
+    return little / std::max({rate[0], rate[1], least});
   }
 
   double time() const { return time_; }
@@ -110,9 +120,11 @@ class EllipsoidPairInFlight {
                   2 * growth_ * g.rate);
   }
 
-  /// The maximum of acceleration_bound over all axes and durations up to 1.
+  /// The maximum of acceleration_bound over all axes and durations up to short_time.
   double largest_acceleration() const {
-    return reduce((pair_.size + abs(growth_)) * rotation_.largest_acceleration() +
+    const SimdPair rotation = rotation_.largest_acceleration();
+    if constexpr (!grows<B>) return reduce(rotation);
+    return reduce((pair_.size + short_time() * abs(growth_)) * rotation +
                   2 * abs(growth_ * rotation_.max_speed()) * max_support_rate_);
   }
 

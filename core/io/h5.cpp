@@ -101,7 +101,8 @@ Handle text_type(const Check& check, std::size_t width) {
 Handle::~Handle() {
   if (id_ <= 0) return;  // none, or HDF5's default
   silence_hdf5();
-  static_cast<void>(H5Idec_ref(id_));  // the file closes what stays open
+  // A file that was closed has closed its objects; else it closes what stays open.
+  if (H5Iis_valid(id_) > 0) static_cast<void>(H5Idec_ref(id_));
 }
 
 Handle& Handle::operator=(Handle&& other) noexcept {

@@ -23,6 +23,8 @@ std::string explained_failure() {
     return 0;
   };
   const bool is_known = H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, explain, &reason) >= 0;
+  // With the note of an error in any thread, HDF5 cannot close at the end of the process.
+  static_cast<void>(H5Eclear2(H5E_DEFAULT));
   return is_known && !reason.empty() ? reason : "unknown reason";
 }
 

@@ -62,6 +62,7 @@ class Neighborhoods {
         type_index_(type_index),
         largest_(largest_circumradius()),
         smallest_(smallest_inradius()),
+        sizes_differ_(smallest_circumradius() < 0.8 * largest_),
         cells_(box, cell_width(poses.size()), poses.size()),
         listed_at_(poses.size()) {
     if constexpr (has_capsule) capsules_ = std::vector<CapsuleOf>(shapes.begin(), shapes.end());
@@ -256,6 +257,12 @@ class Neighborhoods {
     return largest;
   }
 
+  double smallest_circumradius() const {
+    double smallest = largest_;
+    for (const Shape& shape : shapes_) smallest = std::min(smallest, shape.circumradius());
+    return smallest;
+  }
+
   double smallest_inradius() const {
     double smallest = largest_;
     for (const Shape& shape : shapes_) smallest = std::min(smallest, shape.inradius());
@@ -333,11 +340,11 @@ class Neighborhoods {
                             [&](std::size_t j, const Shift<dimension>& shift) {
                               if (j == i) return;
                               const Vector d = separation(references, mine, j, shift);
-                              if (!are_far(mine, references[j], d, limit)) visit(j, shift, d);
+                              if (!are_far(mine, i, references[j], j, d, limit)) visit(j, shift, d);
                             });
     if (box_.lengths().minCoeff() > reach) return;
     box_.for_each_image(Vector::Zero(), reach, [&](const Shift<dimension>& shift, const Vector& d) {
-      if (is_positive_shift(shift) && !are_far(mine, mine, d, limit)) visit(i, shift, d);
+      if (is_positive_shift(shift) && !are_far(mine, i, mine, i, d, limit)) visit(i, shift, d);
     });
   }
 
@@ -348,7 +355,8 @@ class Neighborhoods {
     for (const Image& image : outer_->of(i)) {
       const Shift<dimension> shift = image.shift();
       const Vector d = separation(references_, mine, image.other, shift);
-      if (!are_far(mine, references_[image.other], d, limit)) visit(image.other, shift, d);
+      if (!are_far(mine, i, references_[image.other], image.other, d, limit))
+        visit(image.other, shift, d);
     }
   }
 
@@ -435,7 +443,16 @@ class Neighborhoods {
     });
   }
 
-  static bool are_far(const Reference& one, const Reference& two, const Vector& d, double limit) {
+  // Of two of very different sizes the cells, which know only the largest, return very many that are.
+  bool are_far(const Reference& one, std::size_t i, const Reference& two, std::size_t j,
+               const Vector& d, double limit) const {
+    if (sizes_differ_) {
+      constexpr double rounding = 1 + 1e-6;  // of the sizes
+      const double reach =
+          rounding * (one.size * shape(i).circumradius() + two.size * shape(j).circumradius()) +
+          limit;
+      if (squared_norm(d) > reach * reach) return true;
+    }
     if constexpr (has_capsule)
       return farther_apart(one.capsule, two.capsule, d, limit);
     else
@@ -477,6 +494,7 @@ class Neighborhoods {
   ListPool<Neighbor<B>> lists_;
   std::vector<CapsuleOf> capsules_;  // of each type
   double largest_, smallest_;        // circumradius and inradius
+  bool sizes_differ_;                // the circumradii
   References references_;
   Cells cells_;
   std::vector<std::uint32_t>

@@ -1,6 +1,7 @@
 #include "core/error.h"
 #include "core/io/provenance.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/interruption.h"
 
 namespace vitrel::python {
 
@@ -19,6 +20,7 @@ PYBIND11_MODULE(_vitrel, module) {
   module.attr("version") = vitrel::program_version();
   module.attr("commit") = vitrel::program_commit();
   vitrel::python::bind_errors(module);
+  vitrel::python::wait_at_exit();
   vitrel::python::bind_pairs(module);
   vitrel::python::bind_states(module);
   vitrel::python::bind_work(module);

@@ -6,6 +6,7 @@
 
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/interruption.h"
 #include "workflow/pair/impact.h"
 #include "workflow/pair/pair.h"
 
@@ -103,6 +104,9 @@ std::optional<PeriodicBox<Dim>> box_of(const std::optional<Doubles>& lengths) {
   return PeriodicBox<Dim>(edges);
 }
 
+/// Whether to go on.
+constexpr std::size_t pairs_between_questions = 1000;
+
 /// All pairs of bodies of the same number: calls use(i, pair) without the interpreter.
 template <int Dim, class Use>
 void for_each_pair(const Bodies<Dim>& one, const Bodies<Dim>& two,
@@ -111,9 +115,12 @@ void for_each_pair(const Bodies<Dim>& one, const Bodies<Dim>& two,
     throw UserError(fmt::format("there are {} first and {} second bodies, but they must be as many",
                                 one.size(), two.size()));
   const std::optional<PeriodicBox<Dim>> lengths = box_of<Dim>(box);
-  const py::gil_scoped_release release;
-  for (std::size_t i = 0; i < one.size(); ++i)
+  const Released released;
+  Interruption interruption;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    if (i % pairs_between_questions == 0) interruption.raise_if_requested();
     use(i, Pair<Dim>{one.at(i), two.at(i), lengths, horizon});
+  }
 }
 
 template <int Dim>
@@ -188,8 +195,10 @@ py::array_t<double> restitution(const std::filesystem::path& file,
   std::vector<double> rows;
   rows.reserve(5 * n);
   {
-    const py::gil_scoped_release release;
+    const Released released;
+    Interruption interruption;
     for (std::size_t i = 0; i < n; ++i) {
+      interruption.raise_if_requested();
       const auto k = static_cast<py::ssize_t>(i);
       impact.speed = *speed.data(k);
       impact.impact_parameter = *impact_parameter.data(k);

@@ -8,6 +8,7 @@
 #include "core/io/text_file.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/interruption.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/report/page.h"
@@ -43,12 +44,17 @@ AnalysisChoice choice_of(const std::vector<std::string>& overrides) {
   return choice;
 }
 
+AnalysisProgress until(Interruption& interruption) {
+  return {{}, std::ref(interruption)};
+}
+
 /// (summary as JSON, tables, [(name, text)] of the provenance)
 py::tuple analyze_file(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides) {
   const AnalysedRun run = [&] {
-    const py::gil_scoped_release release;
-    return analyze_run(file, choice_of(overrides));
+    const Released released;
+    Interruption interruption;
+    return analyze_run(file, choice_of(overrides), until(interruption));
   }();
   return py::make_tuple(analysis_summary(run).dump(), tables_of(run.results),
                         run.results.provenance);
@@ -61,8 +67,9 @@ py::tuple analyze_sweep(const std::filesystem::path& folder,
   GlassStudy study;
   const SweepProgress sweep = sweep_progress(folder);
   {
-    const py::gil_scoped_release release;
-    runs = analysed_jobs(sweep, choice_of(overrides));
+    const Released released;
+    Interruption interruption;
+    runs = analysed_jobs(sweep, choice_of(overrides), until(interruption));
     study = glass_study(runs);
   }
   std::vector<std::filesystem::path> files;
@@ -74,8 +81,9 @@ py::tuple analyze_sweep(const std::filesystem::path& folder,
 
 /// As HTML.
 std::string page(const std::filesystem::path& input, const std::vector<std::string>& overrides) {
-  const py::gil_scoped_release release;
-  return page_of(input, choice_of(overrides)).html;
+  const Released released;
+  Interruption interruption;
+  return page_of(input, choice_of(overrides), until(interruption)).html;
 }
 
 void write_page(const std::filesystem::path& input, const std::filesystem::path& output,

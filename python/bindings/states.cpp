@@ -3,6 +3,7 @@
 #include "core/state/check.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/interruption.h"
 #include "workflow/analyze/analyze.h"
 
 namespace vitrel::python {
@@ -103,7 +104,7 @@ void add_view(py::class_<Configuration<Dim>>& type, const char* name, Get get) {
 template <int Dim>
 py::dict check(const Configuration<Dim>& state) {
   const ExactCheck<Dim> found = [&] {
-    const py::gil_scoped_release release;
+    const Released released;
     return exact_check(state);
   }();
   std::vector<std::int64_t> pairs;

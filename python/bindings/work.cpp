@@ -1,4 +1,3 @@
-#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,6 +7,7 @@
 #include "core/state/stage.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/interruption.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/run.h"
@@ -15,24 +15,6 @@
 
 namespace vitrel::python {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// Whether an interval has passed since it was last so: the interpreter is not asked at every block.
-class Interval {
- public:
-  explicit Interval(Clock::duration length) : length_(length) {}
-  bool passed() {
-    const Clock::time_point now = Clock::now();
-    if (now - last_ < length_) return false;
-    last_ = now;
-    return true;
-  }
-
- private:
-  Clock::duration length_;
-  Clock::time_point last_ = Clock::now();
-};
 
 /// Python hears of the work: `say(line)` and `show(fraction, quantity, value)`. Both may be None. It stops the work at
 /// its next block when it has a signal to handle, like that of Ctrl-C.
@@ -47,20 +29,13 @@ class Listener {
     };
   }
   RunControl control() {
-    return {[this] { return is_interrupted(); }, [this](const Progress& p) { show(p); }, {}};
+    return {
+        [this] { return interruption_.requested(); }, [this](const Progress& p) { show(p); }, {}};
   }
   /// Once the work has ended: KeyboardInterrupt, or what else the signal raised.
-  void raise() const {
-    if (interruption_) throw py::error_already_set(*interruption_);
-  }
+  void raise() const { interruption_.raise(); }
 
  private:
-  bool is_interrupted() {
-    if (interruption_ || !check_.passed()) return interruption_.has_value();
-    const py::gil_scoped_acquire acquire;
-    if (PyErr_CheckSignals() != 0) interruption_.emplace();
-    return interruption_.has_value();
-  }
   void show(const Progress& progress) {
     if (!display_.passed()) return;
     const py::gil_scoped_acquire acquire;
@@ -68,8 +43,8 @@ class Listener {
   }
 
   py::object say_, show_;
-  Interval check_{std::chrono::milliseconds(50)}, display_{std::chrono::milliseconds(100)};
-  std::optional<py::error_already_set> interruption_;
+  Interval display_{std::chrono::milliseconds(100)};
+  Interruption interruption_;
 };
 
 /// Calls `see(state)` with a copy of every frame.
@@ -98,7 +73,7 @@ Parameters parameters_of(const std::filesystem::path& file,
 template <int Dim>
 py::object prepared(const PrepareRequest& request, Listener& listener) {
   Preparation<Dim> preparation = [&] {
-    const py::gil_scoped_release release;
+    const Released released;
     return prepare<Dim>(request, listener.control(), listener.log());
   }();
   listener.raise();
@@ -122,7 +97,7 @@ template <int Dim>
 std::string run_of(const RunRequest& request, Listener& listener, const py::object& see) {
   FrameListener<Dim> frames(see);
   const RunOutcome<Dim> outcome = [&] {
-    const py::gil_scoped_release release;
+    const Released released;
     return run_simulation<Dim>(request, listener.control(), listener.log(),
                                see.is_none() ? nullptr : &frames);
   }();
@@ -149,7 +124,7 @@ py::tuple sweep_folder(const std::filesystem::path& file, const std::vector<std:
   Listener listener{std::move(say), std::move(show)};
   const SweepRequest request{{file, overrides}, folder, program, parallel};
   const SweepOutcome outcome = [&] {
-    const py::gil_scoped_release release;
+    const Released released;
     return run_sweep(request, listener.control(), listener.log());
   }();
   listener.raise();

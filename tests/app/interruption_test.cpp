@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
 
 #include "core/io/checked.h"
 #include "core/random/stream.h"
@@ -106,7 +110,21 @@ TEST_P(Interruption, StoppedBySignalItExitsWithFiveAndContinues) {
   expect_same_datasets_despite({SIGTERM, SIGINT, SIGUSR1}, GetParam(), folder, 0.2, 0.3);
 }
 
-/// The same for a preparation, every stage of which is killed some time, and stopped.
+/// True once a file has been written so many times.
+std::function<bool()> written(const std::filesystem::path& file, int times) {
+  const auto time_of = [file] {
+    std::error_code none;
+    return std::filesystem::last_write_time(file, none);
+  };
+  return [=, last = time_of(), left = times]() mutable {
+    const auto now = time_of();
+    left -= now != std::exchange(last, now);
+    return left <= 0;
+  };
+}
+
+/// The same for a preparation, every stage of which is killed some time, and stopped: now and then after a checkpoint,
+/// however fast the machine.
 TEST(InterruptedPreparation, KilledAndStoppedItsStateIsTheSame) {
   const Folder folder("kill_prepare");
   folder.write(
@@ -122,15 +140,11 @@ TEST(InterruptedPreparation, KilledAndStoppedItsStateIsTheSame) {
   const auto prepare = [](const std::string& output) {
     return std::vector<std::string>{"prepare", "p.toml", "-o", output, "-q"};
   };
-  const auto start = std::chrono::steady_clock::now();
   ASSERT_EQ(run(folder.path(), prepare("whole.h5")).code, 0);
-  const auto whole =
-      std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - start);
-  Stream moments(12, Purpose::tests);
   int interrupted = 0;
   for (int round = 0; round < 12; ++round) {
-    const milliseconds delay(static_cast<int>(moments.uniform(0.05, 0.25) * whole.count()));
-    const int code = run_and_signal(folder.path(), prepare("parts.h5"), delay,
+    const int code = run_and_signal(folder.path(), prepare("parts.h5"),
+                                    written(folder / "parts.h5.preparation", 1 + round % 4),
                                     round % 3 == 0 ? SIGTERM : SIGKILL)
                          .code;
     if (std::filesystem::exists(folder / "parts.h5")) break;

@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -53,6 +55,33 @@ TEST(ProgressDisplay, IsWhatASweepReads) {
   const std::string line = shown(ProgressDisplay(ProgressDisplay::Mode::terminal), "run").substr(1);
   EXPECT_EQ(share_of_run(line), 0.5);
   EXPECT_EQ(share_of_run("run of rotating ellipses"), 0);
+}
+
+/// What is left after `seconds` of work whose share done is fraction(seconds), noted once a second.
+template <class Fraction>
+std::optional<double> left_after(int seconds, Fraction fraction) {
+  const auto mark = [&](int t) {
+    return Pace::Mark{1.0 * t, {fraction(t), 0, "packing fraction"}};
+  };
+  Pace pace(mark(0));
+  for (int t = 1; t <= seconds; ++t) pace.note(mark(t));
+  return pace.left();
+}
+
+TEST(Pace, OfSteadyWorkIsExact) {
+  for (const int seconds : {1, 2, 10, 99})
+    EXPECT_NEAR(*left_after(seconds, [](int t) { return 0.01 * t; }), 100 - seconds, 1e-9);
+}
+
+// The share comes ever closer to 0.95, as of particles that jam. By the mean since the start, 3 to 7 s are left.
+TEST(Pace, OfWorkThatStallsAnnouncesNoEnd) {
+  const auto stalling = [](int t) { return 0.95 * (1 - std::exp(-0.1 * t)); };
+  for (const int seconds : {60, 90, 120, 150})
+    EXPECT_GT(*left_after(seconds, stalling), 0.5 * seconds);
+}
+
+TEST(Pace, OfWorkThatStartsAgainIsUnknown) {
+  EXPECT_EQ(left_after(10, [](int t) { return t < 8 ? 0.1 * t : 0.3; }), std::nullopt);
 }
 
 TEST(DurationText, LeavesOutLeadingZeroParts) {

@@ -1,4 +1,4 @@
-// What `vitrel run --dry-run` expects of a run, against the run: by events, not by the clock.
+// What `--dry-run` expects of a preparation and a run, against both: by events and sweeps, not by the clock.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 namespace vitrel {
 namespace {
 
+using testing::HasSubstr;
 using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
@@ -79,6 +80,69 @@ INSTANTIATE_TEST_SUITE_P(
               "aspect_ratio = 1.5\nsize = 0.7\nfraction = 0.5\n",
               "kind = \"brownian\"\nduration = 10\n"}),
     [](const auto& scene) { return scene.param.name; });
+
+/// What a plan expects of a quantity of its last stage, "…, 1.9e+05 events, 1e+03 sweeps, 0.2 s".
+double expected_of_stage(const std::string& plan, const std::string& quantity) {
+  const std::regex line("stage .*, (\\S+) " + quantity + ",.*\nprepares in +(\\S+) s\n");
+  std::smatch found;
+  return std::regex_search(plan, found, line) ? std::stod(found[1]) : 0;
+}
+
+void expect_within_three(double expected, double found, const char* what) {
+  EXPECT_GE(expected, found / 3) << what;
+  EXPECT_LE(expected, found * 3) << what;
+}
+
+class PreparationPlan : public testing::TestWithParam<Scene> {};
+
+TEST_P(PreparationPlan, IsGoodToAFactorOfThree) {
+  const Folder folder(std::string("plan_") + GetParam().name);
+  folder.write("p.toml", "[system]\n" + GetParam().system + "[[species]]\n" + GetParam().species +
+                             "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\n"
+                             "[[prepare.stage]]\n" +
+                             GetParam().dynamics);
+  const Outcome plan = run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "--dry-run"});
+  ASSERT_EQ(plan.code, 0) << plan.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.h5"));
+  const Outcome in_run = run(folder.path(), {"run", "p.toml", "-o", "r.h5", "--dry-run"});
+  const std::string stages = plan.output.substr(plan.output.find("stage"));
+  EXPECT_THAT(in_run.output, HasSubstr(stages.substr(0, stages.find("writes"))));
+  const Outcome done = run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "--json", "-q"});
+  ASSERT_EQ(done.code, 0) << done.errors;
+  const Json stage = Json::parse(done.output)["stages"][1];
+  constexpr double events_per_collision = 1.7;
+  expect_within_three(expected_of_stage(plan.output, "events"),
+                      events_per_collision * stage["collisions"].get<double>(), "events");
+  expect_within_three(expected_of_stage(plan.output, "sweeps"), stage["sweeps"], "sweeps");
+}
+
+constexpr const char* grow_to_pressure =
+    "method = \"grow\"\nreduced_pressure = 1e5\ngrowth_rate = 0.01\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, PreparationPlan,
+    testing::Values(
+        Scene{"ellipses", "particles = 400\npacking_fraction = 0.7\n", "aspect_ratio = 2\n",
+              "method = \"grow\"\ngrowth_rate = 0.01\n"},
+        Scene{"small_spheres", "dimension = 3\nparticles = 500\npacking_fraction = 0.4\n",
+              "aspect_ratio = 1\nsize = 0.1\n", "method = \"grow\"\ngrowth_rate = 0.01\n"},
+        Scene{"jammed_ellipses", "particles = 200\n", "aspect_ratio = 2\n", grow_to_pressure},
+        Scene{"swollen_disks", "particles = 1000\npacking_fraction = 0.7\n", "aspect_ratio = 1\n",
+              "method = \"swell\"\n"},
+        Scene{"swollen_spheroids", "dimension = 3\nparticles = 300\npacking_fraction = 0.4\n",
+              "aspect_ratio = 2\n", "method = \"swell\"\n"},
+        Scene{"by_both", "particles = 100\n", "aspect_ratio = 2\n",
+              "method = \"hybrid\"\nreduced_pressure = 1e5\nstretch_sweeps = 10\n"}),
+    [](const auto& scene) { return scene.param.name; });
+
+TEST(PreparationPlan, NamesStagesThatTakeAsLongAsTheyTake) {
+  const Folder folder("plan_unforeseen");
+  folder.write("p.toml",
+               "[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\n[[prepare.stage]]\n"
+               "method = \"sample\"\ndecorrelations = 10\n");
+  const Outcome plan = run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "--dry-run"});
+  EXPECT_THAT(plan.output, HasSubstr(", as many sweeps as it takes\nprepares in  more than "));
+}
 
 TEST(RunCostOfTooMuch, IsAWarning) {
   const Folder folder("cost_of_too_much");

@@ -106,6 +106,8 @@ TEST(Elementary, RootsAndPowers) {
     const double x = of_any_size(draw, trial % 2 ? -20 : -323, trial % 2 ? 20 : 308);
     largest = std::max(largest, units(root(x, 3), std::cbrt(static_cast<long double>(x))));
     ASSERT_EQ(root(-x, 3), -root(x, 3));
+    const double y = trial % 2 ? x : 1;  // far from the ends of the range
+    ASSERT_EQ(root(0x1p-30 * y, 3), 0x1p-10 * root(y, 3));
   }
   EXPECT_LT(largest, 1);
   EXPECT_EQ(root(9, 2), 3);

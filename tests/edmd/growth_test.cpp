@@ -306,7 +306,7 @@ TEST_P(ResumedGrowth, EndsInTheSameBits) {
   GrowthState state;
   for (; grow(parts, options, state, one_block).end == StageEnd::stopped; ++calls) {
   }
-  EXPECT_GT(calls, 20);
+  EXPECT_GT(calls, 10);
   EXPECT_EQ(parts.position, whole.position);
   EXPECT_EQ(parts.angle, whole.angle);
   EXPECT_EQ(parts.velocity, whole.velocity);

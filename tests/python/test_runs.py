@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import textwrap
 import time
 
 import h5py
@@ -112,6 +113,45 @@ def test_control_c_stops_at_a_checkpoint(tmp_path):
     assert process.stdout.read().splitlines()[-1] == "interrupted"
     assert process.wait() == 0
     assert (tmp_path / "run.h5.checkpoint").exists()
+
+
+LONG_RUN = (
+    "vitrel.run(output=sys.argv[1], particles=200, packing_fraction=0.6, aspect_ratio=2, equilibration=0,\n"
+    "           prepare__quality_sweeps=0, duration={}, samples__interval=0.01, quiet=True{})\n")
+
+
+def test_control_c_stops_an_analysis(tmp_path):
+    script = ("import sys, vitrel\n" + LONG_RUN.format(30, "") +
+              "print('begins', flush=True)\n"
+              "try:\n"
+              "    while True:\n"
+              "        vitrel.load(sys.argv[1]).analyze()\n"
+              "except KeyboardInterrupt:\n"
+              "    print('interrupted', flush=True)\n")
+    process = subprocess.Popen([sys.executable, "-c", script, tmp_path / "run.h5"], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "begins\n"
+    time.sleep(0.2)
+    process.send_signal(signal.SIGINT)
+    assert process.stdout.read() == "interrupted\n"
+    assert process.wait() == 0
+
+
+@pytest.mark.parametrize("work", [
+    LONG_RUN.format(1e6, ""),
+    LONG_RUN.format(1e6, ", on_frame=lambda state: None"),
+    "while True:\n"
+    "    state.check()\n"])
+def test_threads_at_work_end_with_the_interpreter(tmp_path, work):
+    script = ("import sys, threading, time, vitrel\n"
+              "state = vitrel.prepare(particles=500, packing_fraction=0.3, stage=[{'method': 'insert'}], quiet=True)\n"
+              "def work():\n"
+              + textwrap.indent(work, "    ") +
+              "threading.Thread(target=work, daemon=True).start()\n"
+              "time.sleep(0.5)\n"
+              "print('ends', flush=True)\n")
+    done = subprocess.run([sys.executable, "-c", script, tmp_path / "run.h5"], capture_output=True, text=True,
+                          timeout=300, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "ends\n", "")
 
 
 def test_other_threads_go_on_meanwhile(tmp_path):

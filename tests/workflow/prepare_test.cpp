@@ -159,6 +159,118 @@ TEST(Prepare, GrowthBeyondJammingIsTheUsersToChange) {
   EXPECT_THROW(prepare({parameters}, {}, say_nothing), UserError);
 }
 
+// Known long before the gaps have vanished, and with the rate halved again and again.
+TEST(Prepare, AGoalBeyondJammingIsRecognisedAsSoonAsTheDensityStalls) {
+  Parameters parameters = small(0.95);
+  parameters.species[0].aspect_ratio = Distribution{.mean = 3};
+  parameters.species[0].size = Distribution{
+      .kind = Distribution::Kind::gaussian, .mean = 1, .standard_deviation = 0.1, .minimum = 0.5};
+  GrowStage stage = growth({}, {});
+  stage.retries = 2;
+  parameters.stages[1] = stage;
+  validate(parameters);
+  try {
+    prepare({parameters}, {}, say_nothing);
+    ADD_FAILURE();
+  } catch (const UserError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("after 2 retries"), std::string::npos) << message;
+    const std::string name = "reduced pressure of ";
+    const double z = std::stod(message.substr(message.find(name) + name.size()));
+    EXPECT_GE(z, 1e4);
+    EXPECT_LT(z, 1.5e4);
+  }
+}
+
+/// The same particles, and all lengths a quarter as long.
+struct TwoUnits {
+  const char* name;
+  int dimension;
+  double aspect_ratio;
+  Stage stage;
+};
+
+class UnitOfLength : public testing::TestWithParam<TwoUnits> {};
+
+template <int Dim>
+Preparation<Dim> prepared(const TwoUnits& scene, double unit) {
+  Parameters parameters = small(Dim == 2 ? 0.55 : 0.3);
+  parameters.system.dimension = Dim;
+  Species& species = parameters.species[0];
+  species.aspect_ratio = Distribution{.mean = scene.aspect_ratio};
+  species.size = Distribution{
+      .kind = Distribution::Kind::uniform, .low = 0.5 * unit, .high = unit, .minimum = 0.5 * unit};
+  parameters.stages[1] = scene.stage;
+  validate(parameters);
+  return prepare<Dim>({parameters}, {}, say_nothing);
+}
+
+template <int Dim>
+void expect_scaled(const TwoUnits& scene) {
+  const Preparation<Dim> one = prepared<Dim>(scene, 1), quarter = prepared<Dim>(scene, 0.25);
+  const Configuration<Dim>&a = one.configuration, &b = quarter.configuration;
+  EXPECT_EQ(a.box.lengths(), 4 * b.box.lengths());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a.position[i], 4 * b.position[i]);
+    if constexpr (Dim == 2)
+      EXPECT_EQ(a.angle[i], b.angle[i]);
+    else
+      EXPECT_EQ(a.orientation[i].coeffs(), b.orientation[i].coeffs());
+  }
+  const StageRecord &done = one.stages.back(), &same = quarter.stages.back();
+  EXPECT_EQ(done.growth.counters.predictions, same.growth.counters.predictions);
+  EXPECT_EQ(done.sweeps, same.sweeps);
+}
+
+// Options are relative to the particles: a system costs the same, and becomes the same, in any unit of length, bit by bit
+// if the units differ by a power of two.
+TEST_P(UnitOfLength, DoesNotMatter) {
+  if (GetParam().dimension == 2)
+    expect_scaled<2>(GetParam());
+  else
+    expect_scaled<3>(GetParam());
+}
+
+HybridStage short_hybrid() {
+  HybridStage stage;
+  stage.growth_rate = 0.1;
+  stage.stretch_sweeps = 3;
+  return stage;
+}
+
+INSTANTIATE_TEST_SUITE_P(Stages, UnitOfLength,
+                         testing::Values(TwoUnits{"DisksGrow", 2, 1, growth({}, {})},
+                                         TwoUnits{"EllipsesGrow", 2, 2, growth({}, {})},
+                                         TwoUnits{"EllipsesSwell", 2, 2, SwellStage()},
+                                         TwoUnits{"EllipsesByBoth", 2, 3, short_hybrid()},
+                                         TwoUnits{"SpheresGrow", 3, 1, growth({}, {})},
+                                         TwoUnits{"SpheroidsGrow", 3, 2, growth({}, {})},
+                                         TwoUnits{"SpheroidsSwell", 3, 2, SwellStage()}),
+                         [](const auto& scene) { return scene.param.name; });
+
+// Two disks of a hundred times the size of the others: the rate is that of the many, and neighbours are searched as near
+// as they are.
+TEST(Prepare, AFewLargeParticlesAmongManyCostLittle) {
+  Parameters parameters = small(0.6);
+  parameters.system.particles = 1000;
+  Species& many = parameters.species[0];
+  many.aspect_ratio = Distribution{.mean = 1};
+  many.fraction = 0.998;
+  Species few = many;
+  few.name = "few";
+  few.fraction = 0.002;
+  few.size = Distribution{.mean = 100};
+  parameters.species.push_back(few);
+  GrowStage stage = growth({}, {});
+  stage.growth_rate = 0.1;
+  parameters.stages[1] = stage;
+  validate(parameters);
+  const Preparation result = prepare({parameters}, {}, say_nothing);
+  EXPECT_TRUE(result.check.clean());
+  EXPECT_LT(result.stages[1].growth.counters.collisions, 100u * 1000);
+  EXPECT_LT(result.stages[1].growth.counters.predictions, 1000u * 1000);
+}
+
 TEST(Prepare, AnUnreachableGoalIsTheUsersToChange) {
   Parameters parameters = small(0.88);
   std::get<SwellStage>(parameters.stages[1]).max_sweeps = 20;

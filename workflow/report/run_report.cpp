@@ -15,8 +15,6 @@
 namespace vitrel {
 namespace {
 
-using Contact = ContactParameters;
-
 /// None if the file does not say.
 std::optional<DynamicsParameters> stored_dynamics(const TrajectoryReader& reader) {
   const std::string parameters = reader.provenance().parameters;
@@ -34,8 +32,9 @@ std::string dynamics_text(const DynamicsParameters& p) {
     text += p.friction > 0 ? ", inelastic and rough contacts" : ", inelastic contacts";
   if (p.driving) text += ", driven";
   if (p.contact)
-    text += p.contact->law == Contact::Law::viscoelastic ? ", viscoelastic contacts"
-                                                         : ", contacts with linear dashpots";
+    text += p.contact->law == ContactParameters::Law::viscoelastic
+                ? ", viscoelastic contacts"
+                : ", contacts with linear dashpots";
   return text;
 }
 
@@ -49,10 +48,12 @@ std::optional<Cooling> cooling_of(const DynamicsParameters& p) {
                  "translation have reached their ratio"
                : "the coefficients of restitution are constant"};
   if (!p.contact) return std::nullopt;
-  if (p.contact->law == Contact::Law::linear_dashpot && p.contact->linear_dashpot.damping > 0)
+  if (p.contact->law == ContactParameters::Law::linear_dashpot &&
+      p.contact->linear_dashpot.damping > 0)
     return Cooling{2,
                    "the coefficient of restitution of a linear dashpot is the same at all speeds"};
-  if (p.contact->law == Contact::Law::viscoelastic && p.contact->viscoelastic.dissipative_time > 0)
+  if (p.contact->law == ContactParameters::Law::viscoelastic &&
+      p.contact->viscoelastic.dissipative_time > 0)
     return Cooling{5. / 3,
                    "viscoelastic spheres are the more elastic the slower they collide (1 − ε ∝ "
                    "v^(1/5))"};

@@ -4,6 +4,7 @@
 #include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/soft_particles.h"
 #include "workflow/configuration/start_state.h"
+#include "workflow/prepare/preparation_plan.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run.h"
 #include "workflow/run/run_cost.h"
@@ -15,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the run starts; the species of the request become those that run.
+/// Where the run starts, with the plan of a preparation; the species of the request become those that run.
 template <int Dim>
 std::string start_text(RunRequest& request) {
   const fs::path checkpoint = checkpoint_path(request.output);
@@ -29,18 +30,19 @@ std::string start_text(RunRequest& request) {
   const std::vector<Stage>& stages = request.parameters.stages;
   const bool is_given = start_state(stages) && stages.size() == 1;
   const PrepareRequest preparation = preparation_request(request);
-  Configuration<Dim> state;
-  if (start_state(stages))
-    state = read_start<Dim>(request.parameters, preparation.overlaps_allowed, {});
-  if (!is_given) {
-    require_same_preparation<Dim>(preparation);
-    state = representative_particles<Dim>(request.parameters);  // at rest, as after other stages
+  Configuration<Dim> state =
+      start_state(stages) ? read_start<Dim>(request.parameters, preparation.overlaps_allowed, {})
+                          : representative_particles<Dim>(request.parameters);
+  if (is_given) {
+    set_velocities(state, request.parameters);
+    return stage_description(stages.front(), 0);
   }
+  require_same_preparation<Dim>(preparation);
+  const std::string plan = preparation_plan(request.parameters, state);
+  state = representative_particles<Dim>(request.parameters);  // at rest, as after other stages
   set_velocities(state, request.parameters);
-  const std::string steps = fmt::format("a preparation in {} stage(s)", stages.size());
-  if (!start_state(stages)) return steps;
-  const std::string given = stage_description(stages.front(), 0);
-  return is_given ? given : fmt::format("{}, by {}", given, steps);
+  return fmt::format("a preparation in {} stage{}\n{}", stages.size(),
+                     stages.size() == 1 ? "" : "s", plan);
 }
 
 /// More than there is of it is a warning.
@@ -82,7 +84,7 @@ std::string plan_text(RunRequest request) {
   const Parameters& p = request.parameters;
   const std::string fraction =
       has_unknown_end(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
-  std::string text = fmt::format("starts from  {}\n", start);
+  std::string text = fmt::format("starts from  {}{}", start, start.ends_with('\n') ? "" : "\n");
   text += fmt::format("system       {} particles, packing fraction {}, seed {}\n",
                       p.system.particles, fraction, p.system.seed);
   for (const Species& species : p.species)

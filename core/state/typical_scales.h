@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/state/configuration.h"
+
+/// @file
+/// The length and the time that are typical of the particles, so that options can be relative to them: medians over the
+/// particles, of an even number of them the lower one. A few large particles among many small ones leave both as they
+/// are.
+namespace vitrel {
+
+/// Of √(a b), or ∛(a b c).
+template <int Dim>
+double typical_length(const Configuration<Dim>& configuration);
+
+/// τ, in which a particle moves by about its own size: of √(m a b/kT), or √(m/kT) ∛(a b c), at kT = 1.
+template <int Dim>
+double typical_time(const Configuration<Dim>& configuration);
+
+}  // namespace vitrel
