@@ -26,7 +26,7 @@ struct Distribution {
   double mean = 1;                ///< constant: the value; gaussian, lognormal: ⟨x⟩
   double standard_deviation = 0;  ///< gaussian, lognormal: of x itself, not of ln x
   double low = 0, high = 0;       ///< uniform, power law
-  double minimum = 0;             ///< smaller draws are drawn again; of no effect on a constant
+  double minimum = 0;             ///< nothing below it; of no effect on a constant
   double exponent = -3;           ///< power law: density ∝ x^exponent between low and high
 
   /// Whether low and high bound it.
