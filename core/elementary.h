@@ -77,6 +77,9 @@ double exponential_minus_one(double x);
 double polar_angle(double y, double x);
 /// The square root for n = 2, the cubic root for n = 3, to within 1 unit; that of 4ᵏ x or 8ᵏ x is exactly 2ᵏ times that of x.
 double root(double x, int n);
+/// The number below which a standard normal variable lies with the probability 0 < u < 1, to 10⁻¹⁵ of the larger of it and
+/// 1: rational approximations (wichura1988).
+double normal_quantile(double u);
 /// xⁿ for n ≥ 0, by n products.
 template <class T>
 constexpr T power(T x, int n) {

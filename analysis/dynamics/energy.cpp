@@ -53,6 +53,10 @@ CompressibilitySeries compressibility(const EnergySeries& energy, const std::vec
     series.time.push_back(0.5 * (energy.time[k - 1] + energy.time[k]));
     series.value.push_back(between(k - 1, k));
   }
+  if (virial.back() == virial.front()) {
+    series.mean = {unknown, unknown, 0};
+    return series;
+  }
   // The mean over a run of uneven intervals is not that of the intervals' values.
   series.mean = time_average(energy.time, series.value);
   series.mean.mean = between(0, frames - 1);

@@ -15,71 +15,153 @@
 namespace vitrel {
 namespace {
 
-double draw_once(const Distribution& d, Stream& stream) {
+/// exp of a normal variable: ln x has variance s² = ln(1 + (σ/⟨x⟩)²) and mean ln⟨x⟩ − s²/2.
+double lognormal(const Distribution& d, double standard_normal) {
+  const double ratio = d.standard_deviation / d.mean;
+  const double variance = logarithm_of_one_plus(ratio * ratio);
+  return d.mean * exponential(std::sqrt(variance) * standard_normal - 0.5 * variance);
+}
+
+/// The inverse distribution function, without the minimum.
+double untruncated_quantile(const Distribution& d, double u) {
   switch (d.kind) {
     case Distribution::Kind::constant:
       return d.mean;
     case Distribution::Kind::gaussian:
-      return d.mean + d.standard_deviation * stream.normal();
-    case Distribution::Kind::lognormal: {
-      // ln x has variance s² = ln(1 + (σ/⟨x⟩)²) and mean ln⟨x⟩ − s²/2.
-      const double ratio = d.standard_deviation / d.mean;
-      const double variance = logarithm_of_one_plus(ratio * ratio);
-      return d.mean * exponential(std::sqrt(variance) * stream.normal() - 0.5 * variance);
-    }
+      return d.mean + d.standard_deviation * normal_quantile(u);
+    case Distribution::Kind::lognormal:
+      return lognormal(d, normal_quantile(u));
     case Distribution::Kind::uniform:
-      return stream.uniform(d.low, d.high);
+      return d.low + (d.high - d.low) * u;
     case Distribution::Kind::power_law: {
       // With m = exponent + 1 the distribution function is linear in x^m. From the bound at which the density of ln x
       // is greater, so that no power overflows.
-      const double width = logarithm(d.high / d.low), m = d.exponent + 1, u = stream.uniform();
+      const double width = logarithm(d.high / d.low), m = d.exponent + 1;
       if (m == 0) return d.low * exponential(u * width);
-      const double from_bound =
-          logarithm_of_one_plus(u * exponential_minus_one(-std::abs(m) * width)) / m;
-      return (m < 0 ? d.low : d.high) * exponential(from_bound);
+      const double share = exponential_minus_one(-std::abs(m) * width);
+      return m < 0 ? d.low * exponential(logarithm_of_one_plus(u * share) / m)
+                   : d.high * exponential(logarithm_of_one_plus((1 - u) * share) / m);
     }
   }
   return d.mean;
 }
 
-double draw_or_one(const std::optional<Distribution>& distribution, Stream& stream) {
-  return distribution ? distribution->draw(stream) : 1;
+double draw_once(const Distribution& d, Stream& stream) {
+  if (d.kind == Distribution::Kind::constant) return d.mean;
+  if (d.kind == Distribution::Kind::gaussian)
+    return d.mean + d.standard_deviation * stream.normal();
+  if (d.kind == Distribution::Kind::lognormal) return lognormal(d, stream.normal());
+  return untruncated_quantile(d, stream.uniform());
 }
 
-void draw_shape(const Species& species, Stream& stream, Ellipse& shape) {
+[[noreturn]] void refuse_minimum(const Distribution& d) {
+  throw UserError("a distribution lies below its minimum " + std::to_string(d.minimum) +
+                  " practically always; lower the minimum or raise the mean");
+}
+
+/// The probability of less than the minimum.
+double share_below_minimum(const Distribution& d) {
+  double below = 0, above = 1;
+  while (true) {
+    const double middle = 0.5 * (below + above);
+    if (middle == below || middle == above) return below;
+    (untruncated_quantile(d, middle) < d.minimum ? below : above) = middle;
+  }
+}
+
+/// Moved and stretched to the mean and standard deviation of the distribution, unless the minimum cuts it.
+void fit_moments(std::vector<double>& values, const Distribution& d) {
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  const double stretch = squares > 0 ? d.standard_deviation / std::sqrt(squares / n) : 1;
+  const auto fitted = [&](double value) { return d.mean + stretch * (value - mean); };
+  if (fitted(*std::ranges::min_element(values)) < std::max(d.minimum, 0.0)) return;
+  std::ranges::transform(values, values.begin(), fitted);
+}
+
+/// The numbers 0 … n − 1 in the order in which the k-th further distribution takes its values: by the fractions of
+/// multiples of an irrational number, so that they are paired without correlation.
+std::vector<std::size_t> pairing(std::size_t n, std::size_t k) {
+  static constexpr double irrational[] = {0, std::numbers::phi - 1, std::numbers::sqrt2 - 1};
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (k == 0) return order;
+  std::vector<double> place;
+  for (std::size_t i = 1; i <= n; ++i) {
+    const double multiple = static_cast<double>(i) * irrational[k];
+    place.push_back(multiple - std::floor(multiple));
+  }
+  std::ranges::sort(order, {}, [&](std::size_t i) { return place[i]; });
+  return order;
+}
+
+// ---- shapes from their distributions, drawn or listed: `value(distribution)` is called for each in turn -----------
+
+template <class Value>
+double value_or_one(const std::optional<Distribution>& distribution, Value&& value) {
+  return distribution ? value(*distribution) : 1;
+}
+
+template <class Value>
+void make_shape(const Species& species, Value&& value, Ellipse& shape) {
   if (species.semi_axes) {
-    const double one = species.semi_axes->at(0).draw(stream);
-    const double other = species.semi_axes->at(1).draw(stream);
+    const double one = value(species.semi_axes->at(0));
+    const double other = value(species.semi_axes->at(1));
     shape = {std::max(one, other), std::min(one, other)};
     return;
   }
-  const double ratio = draw_or_one(species.aspect_ratio, stream);
+  const double ratio = value_or_one(species.aspect_ratio, value);
   if (species.first_semi_axis) {
-    const double a = species.first_semi_axis->draw(stream);
+    const double a = value(*species.first_semi_axis);
     shape = {a, a / ratio};
     return;
   }
-  const double size = draw_or_one(species.size, stream);
+  const double size = value_or_one(species.size, value);
   shape = {size * std::sqrt(ratio), size / std::sqrt(ratio)};
 }
 
-void draw_shape(const Species& species, Stream& stream, Ellipsoid& shape) {
+template <class Value>
+void make_shape(const Species& species, Value&& value, Ellipsoid& shape) {
   if (species.semi_axes) {
     for (std::size_t k = 0; k < 3; ++k)
-      shape.semi_axes[static_cast<int>(k)] = species.semi_axes->at(k).draw(stream);
+      shape.semi_axes[static_cast<int>(k)] = value(species.semi_axes->at(k));
     return;
   }
   double ratio1 = 1, ratio2 = 1;
   if (species.aspect_ratios) {
-    ratio1 = (*species.aspect_ratios)[0].draw(stream);
-    ratio2 = (*species.aspect_ratios)[1].draw(stream);
+    ratio1 = value((*species.aspect_ratios)[0]);
+    ratio2 = value((*species.aspect_ratios)[1]);
   } else {
-    ratio1 = ratio2 = draw_or_one(species.aspect_ratio, stream);
+    ratio1 = ratio2 = value_or_one(species.aspect_ratio, value);
   }
   const double a = species.first_semi_axis
-                       ? species.first_semi_axis->draw(stream)
-                       : draw_or_one(species.size, stream) * root(ratio1 * ratio2, 3);
+                       ? value(*species.first_semi_axis)
+                       : value_or_one(species.size, value) * root(ratio1 * ratio2, 3);
   shape = {Vec3(a, a / ratio1, a / ratio2)};
+}
+
+/// The shapes of n particles of a species, by quantiles.
+template <int Dim>
+std::vector<Solid<Dim>> listed_shapes(const Species& species, std::size_t n) {
+  std::vector<Solid<Dim>> shapes(n);
+  if (n == 0) return shapes;
+  std::vector<std::vector<double>> lists;
+  std::size_t varying = 0;
+  const auto list = [&](const Distribution& d) {
+    const std::vector<double> values = d.quantiles(n);
+    const bool varies = d.kind != Distribution::Kind::constant;
+    const std::vector<std::size_t> order = pairing(n, varies ? varying++ : 0);
+    lists.emplace_back();
+    for (const std::size_t k : order) lists.back().push_back(values[k]);
+    return 1.0;
+  };
+  make_shape(species, list, shapes[0]);
+  for (std::size_t i = 0; i < n; ++i)
+    make_shape(
+        species, [&, k = 0U](const Distribution&) mutable { return lists[k++][i]; }, shapes[i]);
+  return shapes;
 }
 
 template <class Shape>
@@ -93,8 +175,11 @@ void require_tested_aspect(const Species& species, const Shape& shape) {
 }
 
 // Fisher and Yates.
-void shuffle(std::vector<std::int32_t>& values, Stream stream) {
-  for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[stream.below(i)]);
+std::vector<std::size_t> shuffled(std::size_t count, Stream stream) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[stream.below(i)]);
+  return order;
 }
 
 }  // namespace
@@ -112,8 +197,21 @@ double Distribution::draw(Stream& stream) const {
   for (int k = 0; k < max_draws; ++k)
     if (const double value = draw_once(*this, stream); kind == Kind::constant || value >= minimum)
       return value;
-  throw UserError("a distribution lies below its minimum " + std::to_string(minimum) +
-                  " practically always; lower the minimum or raise the mean");
+  refuse_minimum(*this);
+}
+
+std::vector<double> Distribution::quantiles(std::size_t n) const {
+  if (kind == Kind::constant) return std::vector(n, mean);
+  constexpr double practically_always = 0.9999;
+  const double cut = share_below_minimum(*this);
+  if (cut > practically_always) refuse_minimum(*this);
+  std::vector<double> values;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double u = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
+    values.push_back(std::max(untruncated_quantile(*this, cut + (1 - cut) * u), minimum));
+  }
+  if (!is_bounded()) fit_moments(values, *this);
+  return values;
 }
 
 std::vector<std::size_t> species_counts(const std::vector<Species>& species,
@@ -141,21 +239,30 @@ namespace {
 /// Everything but the box.
 template <int Dim>
 Configuration<Dim> draw(const std::vector<Species>& species, std::size_t particles,
-                        std::uint64_t seed) {
+                        std::uint64_t seed, ShapeDraw shapes_by) {
   Configuration<Dim> system;
   system.resize(particles);
   system.species.clear();
   system.species_names.clear();
+  std::vector<std::int32_t> kinds;
+  std::vector<Solid<Dim>> shapes;
   const std::vector<std::size_t> counts = species_counts(species, particles);
   for (std::size_t k = 0; k < species.size(); ++k) {
     system.species_names.push_back(species[k].name);
-    system.species.insert(system.species.end(), counts[k], static_cast<std::int32_t>(k));
+    kinds.insert(kinds.end(), counts[k], static_cast<std::int32_t>(k));
+    const std::vector<Solid<Dim>> listed = listed_shapes<Dim>(species[k], counts[k]);
+    shapes.insert(shapes.end(), listed.begin(), listed.end());
   }
-  shuffle(system.species, Stream(seed, Purpose::shapes));
+  const std::vector<std::size_t> order = shuffled(particles, Stream(seed, Purpose::shapes));
   for (std::size_t i = 0; i < particles; ++i) {
+    system.species.push_back(kinds[order[i]]);
     const Species& kind = species[static_cast<std::size_t>(system.species[i])];
-    Stream stream(seed, Purpose::shapes, 1, i);
-    draw_shape(kind, stream, system.shape[i]);
+    system.shape[i] = shapes[order[i]];
+    if (shapes_by == ShapeDraw::random) {
+      Stream stream(seed, Purpose::shapes, 1, i);
+      make_shape(
+          kind, [&](const Distribution& d) { return d.draw(stream); }, system.shape[i]);
+    }
     require_tested_aspect(kind, system.shape[i]);
     system.mass[i] = kind.mass.value_or(natural_mass(system.shape[i]));
   }
@@ -174,8 +281,8 @@ double total_volume(const Configuration<Dim>& system) {
 template <int Dim>
 Configuration<Dim> draw_particles(const std::vector<Species>& species, std::size_t particles,
                                   double packing_fraction, const Vec<Dim>& proportions,
-                                  std::uint64_t seed) {
-  Configuration<Dim> system = draw<Dim>(species, particles, seed);
+                                  std::uint64_t seed, ShapeDraw shapes_by) {
+  Configuration<Dim> system = draw<Dim>(species, particles, seed, shapes_by);
   const Vec<Dim> relative = proportions / proportions[0];
   const double cube = total_volume(system) / packing_fraction / prod(relative);
   const double width = root(cube, Dim);
@@ -184,8 +291,8 @@ Configuration<Dim> draw_particles(const std::vector<Species>& species, std::size
 }
 
 template Configuration2 draw_particles(const std::vector<Species>&, std::size_t, double,
-                                       const Vec2&, std::uint64_t);
+                                       const Vec2&, std::uint64_t, ShapeDraw);
 template Configuration3 draw_particles(const std::vector<Species>&, std::size_t, double,
-                                       const Vec3&, std::uint64_t);
+                                       const Vec3&, std::uint64_t, ShapeDraw);
 
 }  // namespace vitrel

@@ -26,13 +26,17 @@ struct Distribution {
   double mean = 1;                ///< constant: the value; gaussian, lognormal: ⟨x⟩
   double standard_deviation = 0;  ///< gaussian, lognormal: of x itself, not of ln x
   double low = 0, high = 0;       ///< uniform, power law
-  double minimum = 0;             ///< smaller draws are drawn again; of no effect on a constant
+  double minimum = 0;             ///< nothing below it; of no effect on a constant
   double exponent = -3;           ///< power law: density ∝ x^exponent between low and high
 
   /// Whether low and high bound it.
   bool is_bounded() const { return kind == Kind::uniform || kind == Kind::power_law; }
 
   double draw(Stream& stream) const;
+  /// n values, the quantiles (i + ½)/n of the distribution that the minimum cuts off, in rising order. Gaussian and
+  /// lognormal ones are moved and stretched to the mean and standard deviation given, unless this would leave the range.
+  /// UserError if practically all lies below the minimum, as for draw.
+  std::vector<double> quantiles(std::size_t n) const;
 };
 
 /// One species. Its shape is given by the aspect ratio κ = a/b ≥ 1 and the size √(a b), so a = size
@@ -65,14 +69,22 @@ std::vector<std::size_t> species_counts(const std::vector<Species>& species, std
 /// The largest ratio of the longest to the shortest semi-axis of a particle that is drawn. Contacts are tested up to it.
 inline constexpr double max_aspect = 1000;
 
+/// Where the shapes of particles come from if they are distributed.
+enum class ShapeDraw {
+  quantiles,  ///< a list that the species and their counts determine: all seeds are one liquid
+  random,     ///< drawn anew for each seed
+};
+
 /// N particles at rest at the origin, mixed in a random order, in the box of that packing fraction
-/// whose sides have these proportions. The order comes from the stream (seed, shapes, 0, 0) and the
-/// shape of particle i from (seed, shapes, 1, i). Shapes are not rescaled: the unit of length is that
+/// whose sides have these proportions. The order comes from the stream (seed, shapes, 0, 0). By quantiles, the particles of
+/// a species have the quantiles of their distributions as shapes; the values of several distributions are paired in the
+/// order of the multiples of an irrational number, without correlation. At random, the shape of particle i comes from
+/// (seed, shapes, 1, i). Shapes are not rescaled: the unit of length is that
 /// of the sizes given. At least one species; the fractions add up to 1. Throws UserError if a particle exceeds
 /// max_aspect.
 template <int Dim>
 Configuration<Dim> draw_particles(const std::vector<Species>& species, std::size_t particles,
                                   double packing_fraction, const Vec<Dim>& proportions,
-                                  std::uint64_t seed);
+                                  std::uint64_t seed, ShapeDraw shapes = ShapeDraw::quantiles);
 
 }  // namespace vitrel

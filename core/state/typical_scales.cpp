@@ -9,13 +9,6 @@
 namespace vitrel {
 namespace {
 
-double size_of(const Ellipse& shape) {
-  return std::sqrt(shape.a * shape.b);
-}
-double size_of(const Ellipsoid& shape) {
-  return root(prod(shape.semi_axes), 3);
-}
-
 /// value(i) of the median particle, in single precision: semi-axes are rounded, but particles of size 1 have the size 1.
 template <class Value>
 double lower_median(std::size_t count, Value&& value) {
@@ -27,6 +20,13 @@ double lower_median(std::size_t count, Value&& value) {
 }
 
 }  // namespace
+
+double size_of(const Ellipse& shape) {
+  return std::sqrt(shape.a * shape.b);
+}
+double size_of(const Ellipsoid& shape) {
+  return root(prod(shape.semi_axes), 3);
+}
 
 template <int Dim>
 double typical_length(const Configuration<Dim>& c) {

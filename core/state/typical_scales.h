@@ -3,12 +3,16 @@
 #include "core/state/configuration.h"
 
 /// @file
-/// The length and the time that are typical of the particles, so that options can be relative to them: medians over the
+/// The size of a particle, and the length and the time that are typical of the particles, so that options can be relative to them: medians over the
 /// particles, of an even number of them the lower one. A few large particles among many small ones leave both as they
 /// are.
 namespace vitrel {
 
-/// Of √(a b), or ∛(a b c).
+/// √(a b), or ∛(a b c).
+double size_of(const Ellipse& shape);
+double size_of(const Ellipsoid& shape);
+
+/// Of the sizes.
 template <int Dim>
 double typical_length(const Configuration<Dim>& configuration);
 

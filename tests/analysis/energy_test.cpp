@@ -78,6 +78,13 @@ TEST(Compressibility, ErrorIsThatOfTheIntervals) {
   EXPECT_NEAR(z.mean.error, 0.5 / 32, 0.27 * 0.5 / 32);
 }
 
+TEST(Compressibility, OfARunWithoutCollisionsIsUnknown) {
+  const EnergySeries energy{{0, 1, 2}, {}, {}, {1, 1, 1}};
+  const CompressibilitySeries z = compressibility(energy, {7, 7, 7}, 10, 0);
+  EXPECT_TRUE(std::isnan(z.mean.mean));
+  EXPECT_TRUE(std::isnan(z.mean.error));
+}
+
 TEST(Compressibility, NeedsTwoFrames) {
   EXPECT_TRUE(std::isnan(compressibility({{0}, {}, {}, {1}}, {5}, 10, 0).mean.mean));
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/random/stream.h"
 #include "core/special_values.h"
@@ -97,6 +98,20 @@ TEST(Elementary, PolarAngle) {
   EXPECT_DOUBLE_EQ(polar_angle(0, -1), std::atan2(0, -1));
   EXPECT_DOUBLE_EQ(polar_angle(1, 0), std::atan2(1, 0));
   EXPECT_DOUBLE_EQ(polar_angle(-1, 0), std::atan2(-1, 0));
+}
+
+// Against the distribution function, and its symmetry.
+TEST(Elementary, QuantilesOfTheNormalDistribution) {
+  for (const double u : {1e-300, 1e-20, 1e-9, 1e-3, 0.01, 0.074, 0.076, 0.2, 0.4, 0.499}) {
+    const long double below = 0.5L * std::erfc(-static_cast<long double>(normal_quantile(u)) /
+                                               std::numbers::sqrt2_v<long double>);
+    // d ln u = x dx, and the error is relative to x.
+    EXPECT_NEAR(static_cast<double>(below / u), 1,
+                1e-15 * (3 + 4 * std::pow(normal_quantile(u), 2)));
+  }
+  EXPECT_EQ(normal_quantile(0.5), 0);
+  EXPECT_EQ(normal_quantile(0.75), -normal_quantile(0.25));
+  EXPECT_DOUBLE_EQ(normal_quantile(0.975), 1.9599639845400542);
 }
 
 TEST(Elementary, RootsAndPowers) {

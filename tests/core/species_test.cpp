@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/random/stream.h"
@@ -213,6 +217,99 @@ TEST(Distribution, PowerLawHasItsMoments) {
     expect_moments({.kind = Distribution::Kind::power_law, .low = 1, .high = 2, .exponent = n},
                    mean, std::sqrt(variance), fourth / (variance * variance));
   }
+}
+
+double share_of_normal(double z) {
+  return 0.5 * std::erfc(-z / std::numbers::sqrt2);
+}
+
+// Against the distribution functions.
+TEST(Distribution, QuantilesDivideItIntoEqualShares) {
+  using Kind = Distribution::Kind;
+  constexpr std::size_t n = 100;
+  const auto expect_shares = [](const Distribution& d, auto&& share) {
+    const std::vector<double> values = d.quantiles(n);
+    for (std::size_t k = 0; k < n; ++k)
+      EXPECT_NEAR(share(values[k]), (static_cast<double>(k) + 0.5) / n, 1e-14);
+  };
+  expect_shares({Kind::uniform, 0, 0, 1, 3, 0.1}, [](double x) { return (x - 1) / 2; });
+  expect_shares({Kind::uniform, 0, 0, 1, 3, 2}, [](double x) { return x - 2; });
+  for (const double m : {-2., 1.5}) {
+    const Distribution law{.kind = Kind::power_law, .low = 0.1, .high = 10, .exponent = m - 1};
+    const double low = std::pow(0.1, m), high = std::pow(10, m);
+    expect_shares(law, [&](double x) { return (std::pow(x, m) - low) / (high - low); });
+  }
+  // Half a Gaussian, which is not moved.
+  expect_shares({Kind::gaussian, 1, 0.5, 0, 0, 1},
+                [](double x) { return 2 * share_of_normal((x - 1) / 0.5) - 1; });
+}
+
+TEST(Distribution, QuantilesHaveTheMomentsAskedFor) {
+  using Kind = Distribution::Kind;
+  for (const Kind kind : {Kind::gaussian, Kind::lognormal})
+    for (const std::size_t n : {2U, 10U, 1001U}) {
+      const std::vector<double> values = Distribution{kind, 2, 0.4, 0, 0, 0.1}.quantiles(n);
+      double sum = 0, squares = 0;
+      for (const double x : values) sum += x, squares += (x - 2) * (x - 2);
+      const auto count = static_cast<double>(n);
+      EXPECT_NEAR(sum / count, 2, 1e-14);
+      EXPECT_NEAR(std::sqrt(squares / count), 0.4, 1e-14);
+      EXPECT_TRUE(std::ranges::is_sorted(values));
+    }
+  EXPECT_EQ((Distribution{Kind::lognormal, 2, 0.4, 0, 0, 0.1}.quantiles(1)), std::vector{2.0});
+  // So broad that the smallest of three would be negative.
+  EXPECT_GT((Distribution{Kind::lognormal, 1, 5, 0, 0, 1e-3}.quantiles(3)[0]), 0);
+  EXPECT_THROW((Distribution{Kind::uniform, 0, 0, 0, 1, 2}.quantiles(5)), UserError);
+}
+
+std::vector<Species> two_laws() {
+  using Kind = Distribution::Kind;
+  std::vector<Species> species(2);
+  species[0].fraction = 0.7;
+  species[0].aspect_ratio = Distribution{Kind::gaussian, 3, 0.3, 0, 0, 1};
+  species[0].size = Distribution{Kind::power_law, 0, 0, 0.5, 2, 0.1};
+  species[1].fraction = 0.3;
+  species[1].aspect_ratio = number(2);
+  return species;
+}
+
+/// Size and aspect ratio of all particles of the first species, sorted.
+std::vector<std::pair<double, double>> shapes_of_first(const Configuration2& c) {
+  std::vector<std::pair<double, double>> found;
+  for (std::size_t i = 0; i < c.size(); ++i)
+    if (c.species[i] == 0)
+      found.emplace_back(std::sqrt(c.shape[i].a * c.shape[i].b), c.shape[i].a / c.shape[i].b);
+  std::ranges::sort(found);
+  return found;
+}
+
+Configuration2 two_laws(std::uint64_t seed, ShapeDraw draw) {
+  return draw_particles<2>(two_laws(), 1000, 0.3, Vec2::Ones(), seed, draw);
+}
+
+TEST(DrawParticles, AllSeedsAreOneLiquid) {
+  const Configuration2 one = two_laws(1, ShapeDraw::quantiles),
+                       two = two_laws(2, ShapeDraw::quantiles);
+  EXPECT_EQ(shapes_of_first(one), shapes_of_first(two));
+  EXPECT_NE(one.shape[0].a, two.shape[0].a);
+  // The sums of the areas differ in the order of the particles.
+  EXPECT_NEAR(one.box.lengths()[0], two.box.lengths()[0], 1e-12 * one.box.lengths()[0]);
+  EXPECT_NE(shapes_of_first(two_laws(1, ShapeDraw::random)),
+            shapes_of_first(two_laws(2, ShapeDraw::random)));
+}
+
+// Of n pairs at random it would be of the order 1/√n, here 0.04.
+TEST(DrawParticles, SeveralDistributionsAreNotCorrelated) {
+  const auto shapes = shapes_of_first(two_laws(1, ShapeDraw::quantiles));
+  const auto n = static_cast<double>(shapes.size());
+  double size = 0, ratio = 0, sizes = 0, ratios = 0, both = 0;
+  for (const auto& [x, y] : shapes) size += x / n, ratio += y / n;
+  for (const auto& [x, y] : shapes) {
+    sizes += (x - size) * (x - size);
+    ratios += (y - ratio) * (y - ratio);
+    both += (x - size) * (y - ratio);
+  }
+  EXPECT_LT(std::abs(both) / std::sqrt(sizes * ratios), 0.01);
 }
 
 TEST(Distribution, DrawsBelowTheMinimumAreDrawnAgain) {

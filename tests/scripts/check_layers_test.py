@@ -16,7 +16,7 @@ GOOD = {
     "core/io/file.cpp": '#include "core/state/state.h"\n#include "vitrel_commit.h"\n',
     "edmd/engine.cpp": '#include "edmd/engine.h"\n#include "core/neighbors/cells.h"\n',
     "workflow/storage/check.h": '#include "core/state/state.h"\n#include "workflow/log.h"\n',
-    "workflow/stages/stage.h": '#include "workflow/configuration/rules.h"\n#include "mc/insert.h"\n',
+    "workflow/stages/stage.h": '#include "workflow/rules.h"\n#include "mc/insert.h"\n',
     "workflow/configuration/parameters.h": '#include "workflow/stages/stage.h"\n#include "edmd/engine.h"\n',
     "workflow/run/run.h": '#include "workflow/prepare/prepare.h"\n#include "workflow/storage/check.h"\n',
     "workflow/analyze/analyze.h": '#include "analysis/results.h"\n#include "workflow/run/run.h"\n',

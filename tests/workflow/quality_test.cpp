@@ -164,6 +164,23 @@ TEST(MeasureQuality, OfAPackingInSpaceCountsContactsIfItIsJammed) {
   EXPECT_TRUE(fluid.decorrelation->orientation.empty());
 }
 
+// 94 disks that are held need 2 · 93 + 1 contacts.
+TEST(StateQuality, TooFewContactsAreNamed) {
+  const auto remark = [](std::size_t contacts, std::size_t rotors) {
+    StateQuality quality{};
+    quality.particles = 100;
+    quality.rotors = rotors;
+    quality.backbone = JammedBackbone{{6, contacts, 3.9, 4}, 1e-4};
+    std::vector<QualityRow> rows;
+    add_backbone_rows(rows, quality);
+    return rows[0].remark;
+  };
+  EXPECT_NE(remark(184, 0).find("not rigid: there are 184 contacts, but at least 187"),
+            std::string::npos);
+  EXPECT_EQ(remark(187, 0).find("not rigid"), std::string::npos);
+  EXPECT_EQ(remark(184, 100).find("not rigid"), std::string::npos);
+}
+
 // Rotation in flight and collisions turn the particles afterwards.
 TEST(MeasureQuality, OfAPackingInSpaceKnowsTheOrientationsItBeganWith) {
   const auto grown_from = [](const std::string& orientations) {

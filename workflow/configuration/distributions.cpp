@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/io/number_text.h"
-#include "workflow/configuration/rules.h"
+#include "workflow/rules.h"
 
 namespace vitrel {
 namespace {
@@ -53,7 +53,7 @@ void describe_distribution(const Field& field, Distribution& d, FieldVisitor& vi
       law.field({"exponent", "", "Exponent of the density, ∝ x^exponent between the bounds."},
                 d.exponent);
     });
-    in.field({"minimum", "", "Smaller values are drawn again."}, d.minimum);
+    in.field({"minimum", "", "No value is smaller: there the distribution is cut off."}, d.minimum);
   });
   d.kind = static_cast<KindOfLaw>(is_table ? kind + 1 : 0);
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/io/foreign/foreign_formats.h"
-#include "workflow/configuration/rules.h"
 #include "workflow/configuration/sections.h"
+#include "workflow/rules.h"
 
 namespace vitrel {
 namespace {

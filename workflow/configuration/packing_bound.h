@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/state/species.h"
-#include "workflow/configuration/rules.h"
+#include "workflow/rules.h"
 
 namespace vitrel {
 

@@ -259,9 +259,12 @@ std::string parameter_page() {
 
 Parameters recorded_parameters(const std::string& text, const std::string& name) {
   Parameters parameters = parse_parameters(text, name);
-  const bool is_recorded = text.find("\nrotation = ") != std::string::npos;
-  if (parameters.system.dimension == 3 && !is_recorded)
+  const auto is_recorded = [&](const char* key) {
+    return text.find(std::string("\n") + key + " = ") != std::string::npos;
+  };
+  if (parameters.system.dimension == 3 && !is_recorded("rotation"))
     parameters.dynamics.rotation = FreeRotation::constant;
+  if (!is_recorded("draw")) parameters.system.draw = ShapeDraw::random;
   return parameters;
 }
 
@@ -273,6 +276,7 @@ Parameters continued(Parameters parameters, const Parameters& recorded) {
   FreeRotation& rotation = parameters.dynamics.rotation;
   if (rotation == FreeRotation::euler && !place_of(parameters, "dynamics.rotation"))
     rotation = recorded.dynamics.rotation;
+  if (!place_of(parameters, "system.draw")) parameters.system.draw = recorded.system.draw;
   return parameters;
 }
 

@@ -15,8 +15,8 @@
 #include "edmd/options.h"
 #include "edmd/soft/linear_dashpot.h"
 #include "edmd/soft/viscoelastic.h"
-#include "workflow/configuration/system_parameters.h"
 #include "workflow/stages/stage.h"
+#include "workflow/system_parameters.h"
 
 /// @file
 /// The parameter file: what it holds, how it is read, and the texts that describe it. All commands

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "workflow/configuration/parameters.h"
-#include "workflow/configuration/rules.h"
+#include "workflow/rules.h"
 
 /// @file
 /// The sections of the parameter file. For each there is a function that names its fields with their bounds, and one that

@@ -92,6 +92,13 @@ void describe_system(SystemParameters& p, FieldVisitor& visit) {
        bounds::packing_fraction},
       p.packing_fraction);
   visit.field({"seed", "", "Seed of all random numbers."}, p.seed);
+  static constexpr const char* draws[] = {"quantiles", "random"};
+  visit.field({"draw", "",
+               "Distributed sizes and shapes: by quantiles, the species and their numbers of "
+               "particles determine the list of all shapes, and the seed only who has which, so "
+               "that runs with different seeds are of one liquid; at random, each seed draws its "
+               "own, and what is measured scatters with them."},
+              p.draw, draws);
   visit.number_or_numbers(
       {"box_aspect",
        "",

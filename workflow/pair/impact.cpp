@@ -11,8 +11,8 @@
 #include "core/special_values.h"
 #include "edmd/soft/restitution_table.h"
 #include "workflow/analyze/analyze.h"
-#include "workflow/configuration/rules.h"
 #include "workflow/configuration/sections.h"
+#include "workflow/rules.h"
 
 namespace vitrel {
 namespace {

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "core/state/species.h"
-#include "workflow/configuration/rules.h"
 #include "workflow/configuration/sections.h"
+#include "workflow/rules.h"
 
 namespace vitrel {
 namespace {

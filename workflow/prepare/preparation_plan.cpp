@@ -44,7 +44,7 @@ Configuration<Dim> representative_particles(const Parameters& p) {
   constexpr std::int64_t enough = 2000;
   const auto count = static_cast<std::size_t>(std::min(p.system.particles, enough));
   return draw_particles<Dim>(p.species, count, p.system.packing_fraction,
-                             box_proportions<Dim>(p.system), p.system.seed);
+                             box_proportions<Dim>(p.system), p.system.seed, p.system.draw);
 }
 
 template <int Dim>

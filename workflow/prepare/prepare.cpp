@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "core/state/typical_scales.h"
 #include "workflow/configuration/start_state.h"
 #include "workflow/prepare/prepare_checkpoint.h"
 #include "workflow/storage/checkpoint_file.h"
@@ -57,6 +60,25 @@ Parameters resumed_parameters(Parameters parameters, const Checkpoint& begun,
                     "with its own parameters, or delete this file",
                     file.string(), change->key, change->first, change->second));
   return parameters;
+}
+
+struct MeanAndSpread {
+  double mean = 0, spread = 0;
+};
+
+/// Of the sizes of a species.
+template <int Dim>
+MeanAndSpread sizes_of(const Configuration<Dim>& c, std::int32_t species) {
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < c.size(); ++i)
+    if (c.species[i] == species) sizes.push_back(size_of(c.shape[i]));
+  const auto n = static_cast<double>(sizes.size());
+  const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / n;
+  double squares = 0;
+  for (const double size : sizes) squares += (size - mean) * (size - mean);
+  constexpr double rounding = 1e-12;
+  const double spread = std::sqrt(squares / n);
+  return {mean, spread > rounding * mean ? spread : 0};
 }
 
 /// One request at work.
@@ -112,6 +134,7 @@ class PrepareJob {
     done().configuration = is_given()
                                ? read_start<Dim>(done().parameters, request_.overlaps_allowed, log_)
                                : drawn_particles();
+    if (!is_given()) say_sizes();
     stored_.parameters = effective_parameters(parameters());
     stored_.state = first_state(stage(), 0);
   }
@@ -119,7 +142,19 @@ class PrepareJob {
   Configuration<Dim> drawn_particles() const {
     const SystemParameters& system = parameters().system;
     return draw_particles<Dim>(parameters().species, static_cast<std::size_t>(system.particles),
-                               system.packing_fraction, box_proportions<Dim>(system), system.seed);
+                               system.packing_fraction, box_proportions<Dim>(system), system.seed,
+                               system.draw);
+  }
+
+  /// Of species with distributed sizes, what n particles make of the distribution.
+  void say_sizes() const {
+    for (std::size_t k = 0; k < parameters().species.size(); ++k) {
+      const MeanAndSpread sizes = sizes_of(done().configuration, static_cast<std::int32_t>(k));
+      if (sizes.spread > 0)
+        log_line(log_,
+                 fmt::format("species {}: sizes with mean {:.4g} and standard deviation {:.4g}",
+                             parameters().species[k].name, sizes.mean, sizes.spread));
+    }
   }
 
   void load() {

@@ -98,6 +98,19 @@ QualityRow gap_row(const StateQuality& quality) {
           fmt::format("exact check: {} overlaps", quality.overlaps)};
 }
 
+/// Disks and spheres are rigid only with as many contacts as they have degrees of freedom, less those of the whole, and one
+/// more against the pressure: D (N' − 1) + 1 between the N' that are held.
+std::string rigidity_remark(const StateQuality& quality, const JammedBackbone& backbone) {
+  const std::size_t held = quality.particles - backbone.rattlers;
+  if (quality.rotors > 0 || held == 0) return "";
+  const auto dimension = static_cast<std::size_t>(backbone.isostatic_number / 2);
+  const std::size_t least = dimension * (held - 1) + 1;
+  if (backbone.contacts >= least) return "";
+  return fmt::format(
+      "; not rigid: there are {} contacts, but at least {} are needed; grow more slowly",
+      backbone.contacts, least);
+}
+
 void add_backbone_rows(std::vector<QualityRow>& rows, const StateQuality& quality) {
   if (!quality.backbone) return;
   const JammedBackbone& backbone = *quality.backbone;
@@ -105,7 +118,8 @@ void add_backbone_rows(std::vector<QualityRow>& rows, const StateQuality& qualit
   rows.push_back({"contacts per particle",
                   jammed ? fmt::format("{:.3f}", backbone.contact_number) : "–",
                   jammed ? fmt::format("without rattlers; isostatic: {:.3g}; gaps below {:.2g}",
-                                       backbone.isostatic_number, backbone.tolerance)
+                                       backbone.isostatic_number, backbone.tolerance) +
+                               rigidity_remark(quality, backbone)
                          : "not jammed"});
   rows.push_back({"rattlers", fmt::format("{} of {}", backbone.rattlers, quality.particles),
                   "particles that their contacts do not hold"});

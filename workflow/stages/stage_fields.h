@@ -51,12 +51,13 @@ void describe_reduced_pressure(S& stage, FieldVisitor& visit) {
 
 template <class S>
 void describe_growth_rate(S& stage, FieldVisitor& visit) {
-  visit.field({"growth_rate", "",
-               "Relative growth of all lengths in the time in which a typical particle, the median, "
-               "moves by its own size: √(m a b/kT), or √(m/kT) (a b c)^(1/3). Under slow growth the "
-               "liquid can order and therefore jams at a higher packing fraction.",
-               growth_rate_bounds},
-              stage.growth_rate);
+  visit.field(
+      {"growth_rate", "",
+       "Relative growth of all lengths in the time in which a typical particle, the median, "
+       "moves by its own size: √(m a b/kT), or √(m/kT) (a b c)^(1/3). Under slow growth the "
+       "liquid can order and therefore jams at a higher packing fraction.",
+       growth_rate_bounds},
+      stage.growth_rate);
 }
 
 template <class S>

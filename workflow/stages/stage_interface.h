@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/state/stage.h"
-#include "workflow/configuration/rules.h"
-#include "workflow/configuration/system_parameters.h"
+#include "workflow/rules.h"
+#include "workflow/system_parameters.h"
 
 /// @file
 /// The interface of the stages of a preparation. A stage is a type whose members are the options, with their defaults.

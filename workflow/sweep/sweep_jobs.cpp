@@ -129,7 +129,7 @@ double wave_number_of(const Parameters& p) {
   const auto particles = static_cast<std::size_t>(system.particles);
   const auto drawn = [&]<int Dim>() {
     return draw_particles<Dim>(p.species, particles, system.packing_fraction,
-                               box_proportions<Dim>(system), system.seed);
+                               box_proportions<Dim>(system), system.seed, system.draw);
   };
   return system.dimension == 2 ? main_wave_number(drawn.template operator()<2>())
                                : main_wave_number(drawn.template operator()<3>());

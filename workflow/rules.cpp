@@ -1,4 +1,4 @@
-#include "workflow/configuration/rules.h"
+#include "workflow/rules.h"
 
 #include <fmt/format.h>
 

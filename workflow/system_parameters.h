@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/geometry/vector.h"
+#include "core/state/species.h"
 
 namespace vitrel {
 
@@ -12,6 +13,7 @@ struct SystemParameters {
   std::int64_t particles = 1000;
   double packing_fraction = 0.5;
   std::uint64_t seed = 1;
+  ShapeDraw draw = ShapeDraw::quantiles;
   std::vector<double> box_aspect = {
       1};  ///< the other sides over L_x; one number is for all of them
 };
