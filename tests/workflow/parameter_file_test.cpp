@@ -609,6 +609,20 @@ TEST(ObservablesPage, IsUpToDate) {
       << "regenerate it: vitrel analyze --list > docs/observables.md";
 }
 
+TEST(RecordedParameters, OfEarlierVersionsDrewShapesForEachSeed) {
+  const auto draw = [](const std::string& text) {
+    return recorded_parameters(text, "test").system.draw;
+  };
+  EXPECT_EQ(draw("[system]\nparticles = 10\n"), ShapeDraw::random);
+  EXPECT_EQ(draw("[system]\ndraw = \"quantiles\"\n"), ShapeDraw::quantiles);
+  EXPECT_EQ(draw(effective_parameters({})), ShapeDraw::quantiles);
+  // They are continued so, unless the parameters say otherwise.
+  const Parameters recorded = recorded_parameters("[system]\nparticles = 10\n", "test");
+  EXPECT_EQ(continued(parse_parameters("", "test"), recorded).system.draw, ShapeDraw::random);
+  const std::string asked = "[system]\ndraw = \"quantiles\"\n";
+  EXPECT_EQ(continued(parse_parameters(asked, "test"), recorded).system.draw, ShapeDraw::quantiles);
+}
+
 TEST(RecordedParameters, OfEarlierVersionsKeptAngularVelocitiesConstant) {
   const auto rotation = [](const std::string& text) {
     return recorded_parameters(text, "test").dynamics.rotation;
@@ -619,6 +633,7 @@ TEST(RecordedParameters, OfEarlierVersionsKeptAngularVelocitiesConstant) {
   EXPECT_EQ(rotation("[dynamics]\nduration = 10\n"), FreeRotation::euler);
   // A run that was begun by one of them is continued as it was begun.
   Parameters now = parse_parameters(in_space, "test");
+  now.system.draw = ShapeDraw::random;
   now.dynamics.rotation = FreeRotation::constant;
   EXPECT_FALSE(forbidden_change(in_space, effective_parameters(now), Work::run));
   now.dynamics.rotation = FreeRotation::euler;
