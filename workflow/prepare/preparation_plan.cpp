@@ -8,7 +8,7 @@
 #include "core/state/typical_scales.h"
 #include "edmd/hard_fluid.h"
 #include "workflow/configuration/start_state.h"
-#include "workflow/stages/stage_cost.h"
+#include "workflow/prepare/stage_cost.h"
 
 namespace vitrel {
 namespace {

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "mc/compression.h"
-#include "workflow/stages/stage_cost.h"
 #include "workflow/stages/stage_fields.h"
 #include "workflow/stages/stage_record.h"
 
@@ -45,15 +44,6 @@ std::vector<StageField<CompressStage>> CompressStage::fields() {
 std::string CompressStage::description() const {
   if (packing_fraction) return {};
   return fmt::format("compress at pressure {:.4g} for {} sweeps", pressure, sweeps);
-}
-
-StageCost CompressStage::cost(const StageScene& scene) const {
-  const bool is_foreseen = !packing_fraction;
-  StageCost cost =
-      cost_of_sweeps(scene, is_foreseen ? static_cast<double>(sweeps) : 0, Moves::local);
-  cost.is_foreseen = is_foreseen;
-  cost.packing_fraction = scene.end;
-  return cost;
 }
 
 StageReport CompressStage::advance(CompressionState& state, const StageContext& context) const {

@@ -27,7 +27,6 @@ struct CompressStage : StageDefaults {
   static std::vector<StageField<CompressStage>> fields();
   StageEnding ending() const { return ending_known_if(packing_fraction.has_value()); }
   std::string description() const;
-  StageCost cost(const StageScene& scene) const;
   StageReport advance(CompressionState& state, const StageContext& context) const;
   void record(const CompressionState& state, StageRecord& record) const;
 

@@ -3,7 +3,6 @@
 #include "edmd/growth.h"
 #include "mc/options.h"
 #include "workflow/stages/growth_goal.h"
-#include "workflow/stages/stage_cost.h"
 #include "workflow/stages/stage_fields.h"
 #include "workflow/stages/stage_record.h"
 
@@ -26,10 +25,6 @@ std::vector<StageField<GrowStage>> GrowStage::fields() {
           {"reduced_pressure", describe_reduced_pressure},
           {"growth_rate", describe_growth_rate},
           {"retries", describe_retries}};
-}
-
-StageCost GrowStage::cost(const StageScene& scene) const {
-  return cost_of_growth(scene, growth_rate, reduced_pressure);
 }
 
 StageReport GrowStage::advance(GrowthState& state, const StageContext& context) const {

@@ -17,7 +17,6 @@ struct GrowStage : GrowthGoal<GrowStage> {
   int retries = 5;
 
   static std::vector<StageField<GrowStage>> fields();
-  StageCost cost(const StageScene& scene) const;
   StageReport advance(GrowthState& state, const StageContext& context) const;
   void record(const GrowthState& state, StageRecord& record) const;
 

@@ -2,7 +2,6 @@
 
 #include "workflow/stages/growth_goal.h"
 #include "workflow/stages/hybrid.h"
-#include "workflow/stages/stage_cost.h"
 #include "workflow/stages/stage_fields.h"
 #include "workflow/stages/stage_record.h"
 
@@ -27,14 +26,6 @@ std::vector<StageField<HybridStage>> HybridStage::fields() {
           {"stretch_sweeps", describe_stretch_sweeps},
           {"moves", describe_moves},
           {"exchanges", describe_exchanges}};
-}
-
-StageCost HybridStage::cost(const StageScene& scene) const {
-  StageCost cost = cost_of_growth(scene, growth_rate, reduced_pressure);
-  const double sweeps =
-      growth_stretches(scene, reduced_pressure) * static_cast<double>(stretch_sweeps);
-  cost.add(cost_of_sweeps(scene, sweeps, moves));
-  return cost;
 }
 
 StageReport HybridStage::advance(HybridState& state, const StageContext& context) const {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "mc/sampling.h"
-#include "workflow/stages/stage_cost.h"
 #include "workflow/stages/stage_fields.h"
 #include "workflow/stages/stage_record.h"
 
@@ -41,13 +40,6 @@ void SampleStage::validate(const Rules& rules, int /*dimension*/) const {
 std::string SampleStage::description() const {
   return decorrelations > 0 ? fmt::format("sample until decorrelated {} times", decorrelations)
                             : fmt::format("sample for {} sweeps", sweeps);
-}
-
-StageCost SampleStage::cost(const StageScene& scene) const {
-  const bool is_foreseen = decorrelations == 0;
-  StageCost cost = cost_of_sweeps(scene, is_foreseen ? static_cast<double>(sweeps) : 0, moves);
-  cost.is_foreseen = is_foreseen;
-  return cost;
 }
 
 StageReport SampleStage::advance(SamplingState& state, const StageContext& context) const {

@@ -24,7 +24,6 @@ struct SampleStage : StageDefaults {
   void validate(const Rules& rules, int dimension) const;
   StageEnding ending() const { return StageEnding::unchanged; }
   std::string description() const;
-  StageCost cost(const StageScene& scene) const;
   StageReport advance(SamplingState& state, const StageContext& context) const;
   void record(const SamplingState& state, StageRecord& record) const;
 

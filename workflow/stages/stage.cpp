@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/io/parameters.h"
-#include "workflow/stages/stage_cost.h"
 
 namespace vitrel {
 namespace {
@@ -227,16 +226,6 @@ bool has_unknown_end(const std::vector<Stage>& stages) {
     return ending(stage) != StageEnding::unchanged;
   });
   return last != stages.rend() && ending(*last) == StageEnding::unforeseen;
-}
-
-StageCost StageDefaults::cost(const StageScene& scene) const {
-  StageCost none;
-  none.packing_fraction = scene.end;
-  return none;
-}
-
-StageCost expected_cost(const Stage& stage, const StageScene& scene) {
-  return std::visit([&](const auto& options) { return options.cost(scene); }, stage);
 }
 
 std::string stage_description(const Stage& stage, double packing_fraction) {

@@ -55,8 +55,6 @@ double end_of_stage(const Stage& stage, const SystemParameters& system, double b
 /// Whether the packing fraction at which the preparation ends is not known in advance.
 bool has_unknown_end(const std::vector<Stage>& stages);
 
-StageCost expected_cost(const Stage& stage, const StageScene& scene);
-
 /// A short description of the stage with its options; `packing_fraction` is that of end_of_stage.
 std::string stage_description(const Stage& stage, double packing_fraction);
 

@@ -20,7 +20,6 @@
 ///     ending                the kind of its end
 ///     advance               runs it, in both dimensions
 ///     each_item             names the items of its state in a checkpoint
-///     cost                  what it is expected to cost (stage_cost.h)
 ///     record                adds its results to the record of the stage
 ///
 /// and overrides members of StageDefaults where needed. To add a stage, write such a type in files of its own and add
@@ -32,8 +31,6 @@ struct Configuration;
 class FieldVisitor;
 class Rules;
 struct StageRecord;
-struct StageCost;
-struct StageScene;
 
 /// The state of a stage that cannot be continued and always starts again.
 struct NoState {};
@@ -75,8 +72,6 @@ struct StageDefaults {
     return system.packing_fraction;
   }
   void validate(const Rules&, int /*dimension*/) const {}
-  /// By default it takes no time, and ends where it is known to.
-  StageCost cost(const StageScene& scene) const;
   /// A short description with these options; empty if the method and the packing fraction say all.
   std::string description() const { return {}; }
   template <class State, class Visit>

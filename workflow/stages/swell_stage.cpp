@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "mc/swelling.h"
-#include "workflow/stages/stage_cost.h"
 #include "workflow/stages/stage_fields.h"
 #include "workflow/stages/stage_record.h"
 
@@ -11,10 +10,6 @@ namespace vitrel {
 
 std::vector<StageField<SwellStage>> SwellStage::fields() {
   return {{"packing_fraction", describe_packing_fraction}, {"max_sweeps", describe_max_sweeps}};
-}
-
-StageCost SwellStage::cost(const StageScene& scene) const {
-  return cost_of_swelling(scene);
 }
 
 StageReport SwellStage::advance(SwellingState& state, const StageContext& context) const {

@@ -21,7 +21,6 @@ struct SwellStage : StageDefaults {
   std::uint64_t max_sweeps = SwellingOptions().sweeps;
 
   static std::vector<StageField<SwellStage>> fields();
-  StageCost cost(const StageScene& scene) const;
   StageReport advance(SwellingState& state, const StageContext& context) const;
   void record(const SwellingState& state, StageRecord& record) const;
 

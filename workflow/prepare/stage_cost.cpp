@@ -1,7 +1,9 @@
-#include "workflow/stages/stage_cost.h"
+#include "workflow/prepare/stage_cost.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <variant>
 
 #include "core/elementary.h"
 
@@ -58,15 +60,6 @@ double collisions_of_growth(const StageScene& scene, double end, double rate) {
   return sum * step / (scene.fluid.dimension() * rate);
 }
 
-}  // namespace
-
-void StageCost::add(const StageCost& other) {
-  events += other.events;
-  sweeps += other.sweeps;
-  seconds += other.seconds;
-  is_foreseen = is_foreseen && other.is_foreseen;
-}
-
 StageCost cost_of_sweeps(const StageScene& scene, double sweeps, Moves moves) {
   StageCost cost;
   cost.sweeps = sweeps;
@@ -95,12 +88,60 @@ double growth_stretches(const StageScene& scene, const std::optional<double>& re
   return std::ceil(growth / growth_of_stretch + path.rises / rises_per_stretch);
 }
 
-StageCost cost_of_swelling(const StageScene& scene) {
-  StageCost cost = cost_of_sweeps(
-      scene, 3 * std::sqrt(scene.particles) * scene.fluid.compressibility_factor(scene.end),
-      Moves::local);
+StageCost cost(const GrowStage& stage, const StageScene& scene) {
+  return cost_of_growth(scene, stage.growth_rate, stage.reduced_pressure);
+}
+
+StageCost cost(const HybridStage& stage, const StageScene& scene) {
+  StageCost cost = cost_of_growth(scene, stage.growth_rate, stage.reduced_pressure);
+  const double sweeps =
+      growth_stretches(scene, stage.reduced_pressure) * static_cast<double>(stage.stretch_sweeps);
+  cost.add(cost_of_sweeps(scene, sweeps, stage.moves));
+  return cost;
+}
+
+StageCost cost(const SwellStage&, const StageScene& scene) {
+  const double z = scene.fluid.compressibility_factor(scene.end);
+  StageCost cost = cost_of_sweeps(scene, 3 * std::sqrt(scene.particles) * z, Moves::local);
   cost.packing_fraction = scene.end;
   return cost;
+}
+
+StageCost cost(const CompressStage& stage, const StageScene& scene) {
+  const bool is_foreseen = !stage.packing_fraction;
+  const double sweeps = is_foreseen ? static_cast<double>(stage.sweeps) : 0;
+  StageCost cost = cost_of_sweeps(scene, sweeps, Moves::local);
+  cost.is_foreseen = is_foreseen;
+  cost.packing_fraction = scene.end;
+  return cost;
+}
+
+StageCost cost(const SampleStage& stage, const StageScene& scene) {
+  const bool is_foreseen = stage.decorrelations == 0;
+  const double sweeps = is_foreseen ? static_cast<double>(stage.sweeps) : 0;
+  StageCost cost = cost_of_sweeps(scene, sweeps, stage.moves);
+  cost.is_foreseen = is_foreseen;
+  return cost;
+}
+
+template <class S>
+requires S::places_particles StageCost cost(const S&, const StageScene& scene) {
+  StageCost none;
+  none.packing_fraction = scene.end;
+  return none;
+}
+
+}  // namespace
+
+void StageCost::add(const StageCost& other) {
+  events += other.events;
+  sweeps += other.sweeps;
+  seconds += other.seconds;
+  is_foreseen = is_foreseen && other.is_foreseen;
+}
+
+StageCost expected_cost(const Stage& stage, const StageScene& scene) {
+  return std::visit([&](const auto& options) { return cost(options, scene); }, stage);
 }
 
 }  // namespace vitrel
