@@ -3,9 +3,9 @@
 #include "core/state/configuration.h"
 
 /// @file
-/// The size of a particle, and the length and the time that are typical of the particles, so that options can be relative to them: medians over the
-/// particles, of an even number of them the lower one. A few large particles among many small ones leave both as they
-/// are.
+/// The size of a particle, and the length and the time that are typical of all of them, so that options can be relative
+/// to these: medians over the particles, of an even number the lower one. A few large particles among many small ones
+/// leave both as they are.
 namespace vitrel {
 
 /// √(a b), or ∛(a b c).
