@@ -75,10 +75,11 @@ double exponential(double x);
 double exponential_minus_one(double x);
 /// The angle of the vector (x, y), from −π to π, to within 3 units; 0 for the zero vector.
 double polar_angle(double y, double x);
-/// The square root for n = 2, the cubic root for n = 3, to within 1 unit; that of 4ᵏ x or 8ᵏ x is exactly 2ᵏ times that of x.
+/// The square root for n = 2, the cubic root for n = 3, to within 1 unit; that of 4ᵏ x or 8ᵏ x is exactly 2ᵏ times that
+/// of x.
 double root(double x, int n);
-/// The number below which a standard normal variable lies with the probability 0 < u < 1, to 10⁻¹⁵ of the larger of it and
-/// 1: rational approximations (wichura1988).
+/// The number below which a standard normal variable lies with the probability 0 < u < 1, to 10⁻¹⁵ of the larger of it
+/// and 1: rational approximations (wichura1988).
 double normal_quantile(double u);
 /// xⁿ for n ≥ 0, by n products.
 template <class T>
