@@ -245,5 +245,21 @@ TEST(SweepStatus, GivesResultsAndAveragesOverSeeds) {
               2.5 + 0.5 * std::tan(0.95 * std::numbers::pi / 2), 1e-9);
 }
 
+// The step that is asked to stop may be about to end; the next one does not begin.
+TEST(Sweep, AskedToStopItBeginsNoStep) {
+  StubbedSweep sweep("sweep_last_moment",
+                     "[dynamics]\nduration = 10\n[sweep.grid]\n\"system.seed\" = [1]\n");
+  sweep.make_steps("trap '' TERM INT USR1; echo $1 >> $sweep/begun; sleep 0.3");
+  RunControl control;
+  control.should_stop = [&] {
+    return fs::exists(sweep.job("seed-1").parent_path().parent_path() / "begun");
+  };
+  const SweepOutcome outcome = sweep.run(control);
+  EXPECT_TRUE(outcome.stopped);
+  EXPECT_EQ(outcome.done + outcome.failed, 0u);
+  std::ifstream begun(sweep.job("seed-1").parent_path().parent_path() / "begun");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(begun), {}), "prepare\n");
+}
+
 }  // namespace
 }  // namespace vitrel

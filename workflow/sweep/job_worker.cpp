@@ -40,6 +40,7 @@ std::vector<JobWorker::Step> JobWorker::steps_of(const SweepJob& job) {
 }
 
 void JobWorker::ask_to_stop() {
+  is_asked_to_stop_ = true;
   if (child_) child_->ask_to_stop();
 }
 
@@ -55,7 +56,11 @@ void JobWorker::poll() {
   } else {
     printed_->commit();
     ++next_;
-    start_next();
+    // A child that was about to end has done its step nevertheless.
+    if (is_asked_to_stop_ && next_ < steps_.size())
+      give_up(State::stopped);
+    else
+      start_next();
   }
 }
 

@@ -52,6 +52,7 @@ class JobWorker {
   std::optional<AtomicFile> printed_;  ///< by the step that runs: its summary
   std::optional<ChildProcess> child_;
   State state_ = State::running;
+  bool is_asked_to_stop_ = false;
   int exit_code_ = 0;
   double share_ = 0;
 };
