@@ -511,5 +511,16 @@ TEST_F(Import, RepeatedFramesLeaveOutMotionOnly) {
   EXPECT_THAT(reader.obstacle_to_motion(), HasSubstr("frame 1 has the time 3"));
 }
 
+TEST_F(Import, AnElementOfH5mdHasANumberForEachFrame) {
+  for (const char* name : {"image", "position"})
+    EXPECT_THAT(refusal(h5md(std::string(name) + ".h5",
+                             [&](h5::Group& particles) {
+                               if (name != std::string("position")) two_disks(particles);
+                               particles.create_group(name).create_array<double>("value", {},
+                                                                                 std::vector{1.0});
+                             })),
+                HasSubstr(std::string(name) + " is a single number, but needs one for each frame"));
+}
+
 }  // namespace
 }  // namespace vitrel

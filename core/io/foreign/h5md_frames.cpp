@@ -22,6 +22,8 @@ class Element {
   Element(const h5::Group& particles, const std::string& name)
       : is_fixed_(particles.has_dataset(name)),
         value_(particles.dataset(is_fixed_ ? name : name + "/value")) {
+    if (!is_fixed_ && value_.shape().empty())
+      throw UserError(fmt::format("{} is a single number, but needs one for each frame", name));
     if (is_fixed_ || !particles.has_dataset(name + "/step")) return;
     steps_ = axis(particles.dataset(name + "/step"));
     if (particles.has_dataset(name + "/time")) {
@@ -35,7 +37,7 @@ class Element {
   /// Without steps of its own, an element has those of the positions, if it has as many frames.
   void take_steps(const Element& position) {
     if (is_fixed_ || !steps_.empty()) return;
-    if (value_.shape().at(0) != position.steps_.size())
+    if (value_.shape()[0] != position.steps_.size())
       throw UserError(fmt::format("{} has {} frames and no steps, but the positions have {}",
                                   name(), value_.shape()[0], position.steps_.size()));
     steps_ = position.steps_;
@@ -50,7 +52,7 @@ class Element {
   /// Without the direction of frames.
   h5::Shape shape() const {
     h5::Shape shape = value_.shape();
-    if (!is_fixed_ && !shape.empty()) shape.erase(shape.begin());
+    if (!is_fixed_) shape.erase(shape.begin());
     return shape;
   }
 
@@ -84,8 +86,7 @@ class Element {
     const double increment = numbers.at(0);
     const double offset =
         values.has_attribute("offset") ? values.number_attribute<double>("offset") : 0;
-    const h5::Shape shape = value_.shape();
-    numbers.resize(shape.empty() ? 0 : shape[0]);
+    numbers.resize(value_.shape()[0]);
     for (std::size_t k = 0; k < numbers.size(); ++k)
       numbers[k] = offset + increment * static_cast<double>(k);
     return numbers;
@@ -109,7 +110,7 @@ class H5mdFrames final : public ForeignFrames {
         root_(h5::File::open(path, h5::Access::read).root()),
         group_(group_of(options)),
         particles_(root_.group(group_)),
-        elements_(elements_of(particles_)),
+        elements_(with_place(path.string(), [&] { return elements_of(particles_); })),
         position_(positions()) {
     const std::size_t times = position_.times().size();
     if (times > 0 && times < position_.steps().size())
