@@ -430,6 +430,8 @@ TEST_F(Import, LammpsDataHaveMassesAndRotations) {
   EXPECT_NEAR(state.angular_velocity[1].z(), 0.5 / (state.mass[1] * (1 + 0.25) / 5), 1e-12);
   const std::string unnamed = std::string(data).replace(data.find(" # ellipsoid"), 12, "");
   EXPECT_THAT(refusal(text("b.data", unnamed)), HasSubstr("should name its style"));
+  const std::string damaged = std::string(data).replace(data.find("Atoms #"), 7, "Atomsx #");
+  EXPECT_THAT(refusal(text("c.data", damaged)), HasSubstr("has no section Atoms"));
 }
 
 TEST_F(Import, TimesAndLengthsOfTheUser) {

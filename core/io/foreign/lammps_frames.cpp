@@ -236,8 +236,9 @@ class DataFrames final : public ForeignFrames, LammpsFile {
     std::string style;
     while (!section_.empty()) {
       const std::string section = section_;
-      if (section.starts_with("Atoms")) style = style_of(section);
-      read_section(section.substr(0, section.find(" #")));
+      const std::string name(trimmed(std::string_view(section).substr(0, section.find('#'))));
+      if (name == "Atoms") style = style_of(section);
+      read_section(name);
     }
     if (style.empty()) fail("has no section Atoms");
     frame = {};
@@ -289,7 +290,7 @@ class DataFrames final : public ForeignFrames, LammpsFile {
 
   /// Rows of numbers up to the next section.
   void read_section(const std::string& name) {
-    Rows& rows = sections_[std::string(trimmed(name))];
+    Rows& rows = sections_[name];
     std::string row;
     while (next_row(row)) {
       std::vector<double> numbers;
