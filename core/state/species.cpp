@@ -250,6 +250,7 @@ Configuration<Dim> draw(const std::vector<Species>& species, std::size_t particl
   for (std::size_t k = 0; k < species.size(); ++k) {
     system.species_names.push_back(species[k].name);
     kinds.insert(kinds.end(), counts[k], static_cast<std::int32_t>(k));
+    if (shapes_by == ShapeDraw::random) continue;
     const std::vector<Solid<Dim>> listed = listed_shapes<Dim>(species[k], counts[k]);
     shapes.insert(shapes.end(), listed.begin(), listed.end());
   }
@@ -257,8 +258,9 @@ Configuration<Dim> draw(const std::vector<Species>& species, std::size_t particl
   for (std::size_t i = 0; i < particles; ++i) {
     system.species.push_back(kinds[order[i]]);
     const Species& kind = species[static_cast<std::size_t>(system.species[i])];
-    system.shape[i] = shapes[order[i]];
-    if (shapes_by == ShapeDraw::random) {
+    if (shapes_by == ShapeDraw::quantiles) {
+      system.shape[i] = shapes[order[i]];
+    } else {
       Stream stream(seed, Purpose::shapes, 1, i);
       make_shape(
           kind, [&](const Distribution& d) { return d.draw(stream); }, system.shape[i]);

@@ -298,7 +298,7 @@ TEST(DrawParticles, AllSeedsAreOneLiquid) {
             shapes_of_first(two_laws(2, ShapeDraw::random)));
 }
 
-// Of n = 700 pairs at random it would be of the order 1/√n = 0.04.
+// 700 values that are paired at random have a correlation of about 1/√700 = 0.04.
 TEST(DrawParticles, SeveralDistributionsAreNotCorrelated) {
   const auto shapes = shapes_of_first(two_laws(1, ShapeDraw::quantiles));
   const auto n = static_cast<double>(shapes.size());

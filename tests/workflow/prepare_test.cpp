@@ -222,8 +222,8 @@ void expect_scaled(const TwoUnits& scene) {
   EXPECT_EQ(done.sweeps, same.sweeps);
 }
 
-// Options are relative to the particles: a system costs the same, and becomes the same, in any unit of length, bit by bit
-// if the units differ by a power of two.
+// Options are relative to the particles, so that the unit of length changes neither the cost nor the state. If two units
+// differ by a power of two, the states agree bit by bit.
 TEST_P(UnitOfLength, DoesNotMatter) {
   if (GetParam().dimension == 2)
     expect_scaled<2>(GetParam());

@@ -30,11 +30,8 @@ std::string plan_text(PrepareRequest& request) {
   else
     some = representative_particles<Dim>(p);
   require_same_preparation<Dim>(request);
-  const std::string fraction =
-      has_unknown_end(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
-  return fmt::format("system       {} particles, packing fraction {}, seed {}\n",
-                     p.system.particles, fraction, p.system.seed) +
-         preparation_plan(p, some) + fmt::format("writes       {}\n", request.output.string());
+  return system_plan(p) + preparation_plan(p, some) +
+         fmt::format("writes       {}\n", request.output.string());
 }
 
 }  // namespace
@@ -45,6 +42,13 @@ Configuration<Dim> representative_particles(const Parameters& p) {
   const auto count = static_cast<std::size_t>(std::min(p.system.particles, enough));
   return draw_particles<Dim>(p.species, count, p.system.packing_fraction,
                              box_proportions<Dim>(p.system), p.system.seed, p.system.draw);
+}
+
+std::string system_plan(const Parameters& p) {
+  const std::string fraction =
+      has_unknown_end(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
+  return fmt::format("system       {} particles, packing fraction {}, seed {}\n",
+                     p.system.particles, fraction, p.system.seed);
 }
 
 template <int Dim>

@@ -12,6 +12,9 @@ namespace vitrel {
 template <int Dim>
 Configuration<Dim> representative_particles(const Parameters& parameters);
 
+/// A line about the system.
+std::string system_plan(const Parameters& parameters);
+
 /// A line for each stage. `some`: the particles of the given state that the first stage takes, else
 /// some that represent them.
 template <int Dim>

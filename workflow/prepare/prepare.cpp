@@ -66,7 +66,7 @@ struct MeanAndSpread {
   double mean = 0, spread = 0;
 };
 
-/// Of the sizes of a species.
+/// The mean and the standard deviation of the sizes in one species.
 template <int Dim>
 MeanAndSpread sizes_of(const Configuration<Dim>& c, std::int32_t species) {
   std::vector<double> sizes;

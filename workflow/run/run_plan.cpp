@@ -82,11 +82,8 @@ template <int Dim>
 std::string plan_text(RunRequest request) {
   const std::string start = start_text<Dim>(request);
   const Parameters& p = request.parameters;
-  const std::string fraction =
-      has_unknown_end(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
   std::string text = fmt::format("starts from  {}{}", start, start.ends_with('\n') ? "" : "\n");
-  text += fmt::format("system       {} particles, packing fraction {}, seed {}\n",
-                      p.system.particles, fraction, p.system.seed);
+  text += system_plan(p);
   for (const Species& species : p.species)
     text += fmt::format("species      {}, fraction {:.4g}\n", species.name, species.fraction);
   text += p.dynamics.kind == DynamicsParameters::Kind::brownian
