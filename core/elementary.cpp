@@ -135,7 +135,7 @@ double cubic_root_of_normal(double x) {
 double root(double x, int n) {
   if (n == 2) return std::sqrt(x);
   if (x == 0 || !std::isfinite(x)) return x;
-  // Of a number between 1/2 and 4, so that the roots of x and 8 x differ by exactly 2.
+  // The argument is reduced to between 1/2 and 4, so that the root of 8 x is exactly twice that of x.
   int exponent;
   const double significand = std::frexp(std::abs(x), &exponent);
   const int third = (exponent + 3000) / 3 - 1000;

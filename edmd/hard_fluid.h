@@ -21,7 +21,7 @@ class HardFluid {
 
   /// Z = βP/ρ at the packing fraction φ.
   double compressibility_factor(double phi) const;
-  /// Of a particle per unit of time, at kT = 1 and the sizes of the particles.
+  /// The collisions that one particle has per unit of time, at kT = 1.
   double collision_rate(double phi) const;
 
   int dimension() const { return dimension_; }

@@ -43,8 +43,8 @@ void require_new(const std::filesystem::path& output);
 /// error" where `key_error` is in the summary, too.
 void print_summary(const PrintOptions& options, const Json& summary);
 
-/// If JSON is asked for, the summary of work that was stopped before there was anything else to say of it: printed now, or
-/// by whatever ends the program at once (set_summary_of_stop).
+/// The summary of work that was stopped before there was anything else to say about it, if JSON is asked for. It is printed
+/// now, or by whatever ends the program at once (set_summary_of_stop).
 void print_stopped(const PrintOptions& options, const std::filesystem::path& output);
 void print_stopped_if_ended(const PrintOptions& options, const std::filesystem::path& output);
 

@@ -20,7 +20,7 @@ class Pace {
 
   void note(const Mark& now);
   double elapsed() const { return now_.seconds - from_.seconds; }
-  /// Of the value, per second.
+  /// By how much the value rises per second.
   double rate() const { return (now_.progress.value - from_.progress.value) / elapsed(); }
   /// Seconds until all is done; nothing if the work does not advance.
   std::optional<double> left() const;

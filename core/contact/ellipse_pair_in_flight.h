@@ -53,11 +53,10 @@ class EllipsePairInFlight {
     return (reduce(a_ * pair_.size) + gap) / reduce(a_ * max(growth_, 0));
   }
 
-  /// A time in which sizes change by a thousandth at most; longer than any if they are constant.
+  /// A time in which no size changes by more than a thousandth.
   double short_time() const {
-    constexpr double little = 1e-3, least = 1e-300;
-    const SimdPair rate = abs(growth_) / pair_.size;
-    return little / std::max({rate[0], rate[1], least});
+    return std::min(time_of_little_growth(pair_.size[0], growth_[0]),
+                    time_of_little_growth(pair_.size[1], growth_[1]));
   }
 
   double time() const { return time_; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <concepts>
 
 #include "core/geometry/disk.h"
@@ -31,6 +33,12 @@ struct Growing {
   double volume() const { return scaled(shape, size).volume(); }
   double max_support_rate() const { return size * shape.max_support_rate(); }
 };
+
+/// The time in which a size changes by a thousandth; longer than any if it is constant.
+inline double time_of_little_growth(double size, double growth_rate) {
+  constexpr double little = 1e-3, least = 1e-300;
+  return little / std::max(std::abs(growth_rate) / size, least);
+}
 
 using GrowingEllipse = Growing<Ellipse>;
 using GrowingEllipsoid = Growing<Ellipsoid>;

@@ -443,7 +443,8 @@ class Neighborhoods {
     });
   }
 
-  // Of two of very different sizes the cells, which know only the largest, return very many that are.
+  // The cells know only the largest particle. Among particles of very different sizes most of what they return is far
+  // away, and the circumspheres tell.
   bool are_far(const Reference& one, std::size_t i, const Reference& two, std::size_t j,
                const Vector& d, double limit) const {
     if (sizes_differ_) {

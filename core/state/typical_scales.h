@@ -12,7 +12,7 @@ namespace vitrel {
 double size_of(const Ellipse& shape);
 double size_of(const Ellipsoid& shape);
 
-/// Of the sizes.
+/// The median size.
 template <int Dim>
 double typical_length(const Configuration<Dim>& configuration);
 

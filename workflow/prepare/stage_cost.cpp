@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/elementary.h"
+#include "workflow/stages/hybrid_options.h"
 
 namespace vitrel {
 namespace {
@@ -26,7 +27,7 @@ double seconds_per_sweep(const HardFluid& fluid, Moves moves) {
 
 constexpr double jamming = 20;               // from this Z on
 constexpr double collisions_per_rise = 1.5;  // of Z by a factor of e, times γ τ
-constexpr double growth_of_stretch = 0.01, rises_per_stretch = 0.15;  // of ln Z
+constexpr double rises_per_stretch = 0.15;   // of ln Z
 
 /// The packing fraction of this Z.
 double fraction_at(const HardFluid& fluid, double z) {
@@ -85,7 +86,7 @@ double growth_stretches(const StageScene& scene, const std::optional<double>& re
   const Path path = path_of(scene, reduced_pressure);
   const double growth =
       logarithm(path.fluid_end / scene.packing_fraction) / scene.fluid.dimension();
-  return std::ceil(growth / growth_of_stretch + path.rises / rises_per_stretch);
+  return std::ceil(growth / largest_growth_of_stretch + path.rises / rises_per_stretch);
 }
 
 StageCost cost(const GrowStage& stage, const StageScene& scene) {

@@ -9,8 +9,8 @@
 namespace vitrel {
 namespace {
 
-/// Growth of all lengths in one stretch, and the same times Z.
-constexpr double largest_growth = 0.01, largest_compression = 0.2;
+/// Growth of all lengths in one stretch times Z, at most.
+constexpr double largest_compression = 0.2;
 
 template <int Dim>
 class Hybrid {
@@ -51,7 +51,7 @@ class Hybrid {
 
   double next_end() const {
     const double z = std::max(1.0, state_.growth.reduced_pressure);
-    const double size = 1 + std::min(largest_growth, largest_compression / z);
+    const double size = 1 + std::min(largest_growth_of_stretch, largest_compression / z);
     const double area = packing_fraction(configuration_) * size * size;
     return std::min(Dim == 2 ? area : area * size, goal());
   }

@@ -7,6 +7,9 @@
 
 namespace vitrel {
 
+/// Growth of all lengths in one stretch of growth, at most.
+inline constexpr double largest_growth_of_stretch = 0.01;
+
 /// Alternating growth and Monte Carlo (hybrid.h).
 struct HybridOptions {
   double growth_rate = 1e-2;
