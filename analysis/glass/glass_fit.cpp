@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <span>
+#include <tuple>
 
 #include "analysis/statistics/gsl_errors.h"
 #include "analysis/statistics/least_squares.h"
 #include "core/error.h"
+#include "core/random/stream.h"
 #include "core/special_values.h"
 
 namespace vitrel {
@@ -21,14 +25,17 @@ constexpr double smallest_gap = 1e-5;  // of φ_c from the highest density
 constexpr double densest = 1;
 constexpr double min_goodness = 0.05;
 constexpr double one_error = 1;        // rise of χ² at the ends of a 68.3 % interval
-constexpr double one_sigma = 0.15866;  // probability of less than the mean − σ
-constexpr int scan_points = 400;
-constexpr double max_deviation = 3;  // standard errors, of a density from the extrapolated law
+constexpr double limit_95 = 2.7055;    // and at a limit of 95 %, 1.645²
+constexpr double min_distinction = 4;  // by which χ² of the other law must be larger
+constexpr double max_deviation = 3;    // standard errors, of a density from the extrapolated law
+constexpr int resamples = 40;
+constexpr int scan_points = 400, limit_points = 50;
 
 /// One density: y = ln τ.
 struct Point {
   double packing_fraction, y, error;
 };
+using Points = std::span<const Point>;
 
 /// The law is ln τ = ln A + s x(φ, φ_c).
 double abscissa(GlassLaw law, double density, double packing_fraction) {
@@ -45,14 +52,14 @@ double abscissa_derivative(GlassLaw law, double density, double packing_fraction
 /// The best straight line for a given φ_c.
 struct Line {
   double log_prefactor, strength, chi_square;
+  double information;  ///< χ² grows by information · (s − strength)²
 };
 
 /// The law over the points of one window.
 class WindowFit {
  public:
   /// φ_c is above `relaxed`.
-  WindowFit(std::vector<Point> points, GlassLaw law, double relaxed)
-      : points_(std::move(points)), law_(law) {
+  WindowFit(Points points, GlassLaw law, double relaxed) : points_(points), law_(law) {
     highest_ = points_.back().packing_fraction;
     min_gap_ = std::max(relaxed - highest_, 0.0) + smallest_gap;
   }
@@ -60,6 +67,7 @@ class WindowFit {
   GlassWindow operator()() const {
     GlassWindow w = scan();
     if (w.density > density(first())) refine(w);
+    set_limits(w);
     w.degrees = points_.size() - 3;
     w.goodness = gsl_cdf_chisq_Q(w.chi_square, static_cast<double>(w.degrees));
     return w;
@@ -89,10 +97,10 @@ class WindowFit {
       yy += weight * (p.y - y) * (p.y - y);
     }
     const double strength = std::max(0.0, xy / xx);
-    return {y - strength * x, strength, yy - strength * (2 * xy - strength * xx)};
+    return {y - strength * x, strength, yy - strength * (2 * xy - strength * xx), xx};
   }
 
-  /// The best φ_c of a fine grid, and where χ² has risen on both sides.
+  /// The best φ_c of a fine grid.
   GlassWindow scan() const {
     const double step = (last() - first()) / (scan_points - 1);
     int best = 0;
@@ -112,9 +120,24 @@ class WindowFit {
     w.log_prefactor = fit.log_prefactor;
     w.chi_square = least;
     w.covariance.setConstant(unknown);
-    w.low = crossing(u, first(), least + one_error);
-    w.high = crossing(u, last(), least + one_error);
     return w;
+  }
+
+  /// Where χ² has risen on both sides, and how large s may be.
+  void set_limits(GlassWindow& w) const {
+    const double best = std::isnan(w.density) ? last() : std::log(w.density - highest_);
+    w.low = crossing(best, first(), w.chi_square + one_error);
+    w.high = crossing(best, last(), w.chi_square + one_error);
+    w.least = crossing(best, first(), w.chi_square + limit_95);
+    const double most = crossing(best, last(), w.chi_square + limit_95);
+    w.strength_most = std::isnan(most) ? std::numeric_limits<double>::infinity() : w.strength;
+    const double from = std::isnan(w.least) ? first() : std::log(w.least - highest_);
+    const double to = std::isnan(most) ? last() : std::log(most - highest_);
+    for (int k = 0; k < limit_points; ++k) {
+      const Line at = line(from + (to - from) / (limit_points - 1) * k);
+      const double rest = std::max(0.0, w.chi_square + limit_95 - at.chi_square);
+      w.strength_most = std::max(w.strength_most, at.strength + std::sqrt(rest / at.information));
+    }
   }
 
   /// φ_c between u and `end` at which χ² has risen to `target`; NaN if it does not.
@@ -150,11 +173,9 @@ class WindowFit {
     w.chi_square = fit.chi_square;
     const Eigen::Vector3d scale(1, 1, w.density - highest_);
     w.covariance = scale.asDiagonal() * fit.covariance * scale.asDiagonal();
-    w.low = crossing(fit.parameters[2], first(), fit.chi_square + one_error);
-    w.high = crossing(fit.parameters[2], last(), fit.chi_square + one_error);
   }
 
-  std::vector<Point> points_;
+  Points points_;
   GlassLaw law_;
   double highest_, min_gap_;
 };
@@ -211,91 +232,31 @@ double lower_end(const std::vector<Point>& points, GlassLaw law) {
   return law == GlassLaw::vogel_fulcher ? points.back().packing_fraction : 0;
 }
 
+GlassWindow fit_window(const std::vector<Point>& points, std::size_t begin, std::size_t count,
+                       GlassLaw law) {
+  GlassWindow w = WindowFit(Points(points).subspan(begin, count), law, lower_end(points, law))();
+  w.begin = begin;
+  return w;
+}
+
 std::vector<GlassWindow> all_windows(const std::vector<Point>& points, GlassLaw law) {
   std::vector<GlassWindow> windows;
-  for (auto begin = points.begin(); points.end() - begin >= std::ptrdiff_t{min_densities}; ++begin)
-    for (auto end = begin + min_densities; end <= points.end(); ++end)
-      windows.push_back(WindowFit({begin, end}, law, lower_end(points, law))());
+  for (std::size_t begin = 0; begin + min_densities <= points.size(); ++begin)
+    for (std::size_t count = min_densities; begin + count <= points.size(); ++count)
+      windows.push_back(fit_window(points, begin, count, law));
   return windows;
 }
 
-/// Akaike's weights, but for what all windows have in common.
-void weigh(std::vector<GlassWindow>& windows) {
-  const auto cost = [](const GlassWindow& w) {
-    return w.chi_square / 2 - static_cast<double>(w.densities);
-  };
-  double least = std::numeric_limits<double>::infinity(), sum = 0;
-  for (const GlassWindow& w : windows) least = std::min(least, cost(w));
-  for (GlassWindow& w : windows) sum += w.weight = std::exp(least - cost(w));
-  for (GlassWindow& w : windows) w.weight /= sum;
+/// The largest window in which the law fits; all densities if there is none.
+const GlassWindow& largest(const std::vector<GlassWindow>& windows) {
+  return *std::ranges::max_element(windows, {}, [](const GlassWindow& w) {
+    return std::tuple(w.goodness >= min_goodness, w.densities, -w.chi_square);
+  });
 }
 
-const GlassWindow& heaviest(const std::vector<GlassWindow>& windows) {
-  return *std::max_element(
-      windows.begin(), windows.end(),
-      [](const GlassWindow& a, const GlassWindow& b) { return a.weight < b.weight; });
-}
-
-/// A normal distribution about `centre`, of different width on its two sides; NaN stands for the
-/// half beyond all bounds, a centre of NaN for both halves above them.
-struct Belief {
-  double weight, centre, below, above;
-
-  double probability_up_to(double x) const {
-    if (std::isnan(centre)) return 0;
-    const double width = x < centre ? below : above;
-    if (std::isnan(width)) return 0.5;
-    return gsl_cdf_gaussian_P((x - centre) / width, 1);
-  }
-};
-
-/// Where the sum of the beliefs reaches a probability, between two bounds; NaN if not between them.
-double quantile(const std::vector<Belief>& beliefs, double probability, double from, double to) {
-  const auto sum_up_to = [&](double x) {
-    double sum = 0;
-    for (const Belief& b : beliefs) sum += b.weight * b.probability_up_to(x);
-    return sum;
-  };
-  if (sum_up_to(from) > probability || sum_up_to(to) < probability) return unknown;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = (from + to) / 2;
-    (sum_up_to(middle) < probability ? from : to) = middle;
-  }
-  return from;
-}
-
-void combine_densities(GlassFit& fit, double lower_end) {
-  std::vector<Belief> beliefs;
-  for (const GlassWindow& w : fit.windows)
-    beliefs.push_back({w.weight, w.density, w.density - w.low, w.high - w.density});
-  const double from = std::max(fit.window.highest, lower_end);
-  fit.density = quantile(beliefs, 0.5, from, densest);
-  fit.low = quantile(beliefs, one_sigma, from, densest);
-  fit.high = quantile(beliefs, 1 - one_sigma, from, densest);
-  fit.least = quantile(beliefs, 0.05, from, densest);
-  fit.error = (fit.high - fit.low) / 2;
-  fit.statistical = std::min(fit.error, (fit.window.high - fit.window.low) / 2);
-  fit.spread = std::sqrt(fit.error * fit.error - fit.statistical * fit.statistical);
-}
-
-void combine_strengths(GlassFit& fit) {
-  std::vector<Belief> beliefs;
-  double largest = 0;
-  for (const GlassWindow& w : fit.windows) {
-    const double error = std::sqrt(w.covariance(1, 1));
-    beliefs.push_back({w.weight, std::isnan(error) ? unknown : w.strength, error, error});
-    if (!std::isnan(error)) largest = std::max(largest, w.strength + 5 * error);
-  }
-  fit.strength = quantile(beliefs, 0.5, 0, largest);
-  fit.strength_error =
-      (quantile(beliefs, 1 - one_sigma, 0, largest) - quantile(beliefs, one_sigma, 0, largest)) / 2;
-}
-
-/// By which factor times grow over all densities.
-double growth(const std::vector<Point>& points) {
-  const auto [least, most] = std::minmax_element(
-      points.begin(), points.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
-  return std::exp(most->y - least->y);
+/// By which factor times grow from the lowest to the highest density.
+double growth(Points points) {
+  return std::exp(points.back().y - points.front().y);
 }
 
 /// The distance of a point from the law of a window, in standard errors of both; NaN if the window
@@ -310,72 +271,127 @@ double deviation(const Point& p, const GlassWindow& w, GlassLaw law) {
   return std::abs(p.y - expected) / std::sqrt(variance + p.error * p.error);
 }
 
-/// What a density outside of the best window says against its law; empty if nothing does.
-std::string contradiction(const GlassFit& fit, const std::vector<Point>& points, GlassLaw law) {
-  const GlassWindow& w = fit.window;
-  const double divergence = std::fmin(w.density, fit.density);
-  std::string text;
+/// Whether φ_c has an upper limit of 95 %: s has one then, and only then.
+bool is_bounded(const GlassWindow& w) {
+  return std::isfinite(w.strength_most);
+}
+
+Points densities_of(const GlassWindow& w, const std::vector<Point>& points) {
+  return Points(points).subspan(w.begin, w.densities);
+}
+
+std::string text(const GlassWindow& w) {
+  return fmt::format("the best window, [{:.4g}, {:.4g}]", w.lowest, w.highest);
+}
+
+/// What a density outside of the window says against its law; empty if nothing does.
+std::string contradiction(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
+  std::string objection;
   double largest = max_deviation;
   for (const Point& p : points) {
     if (p.packing_fraction >= w.lowest && p.packing_fraction <= w.highest) continue;
-    if (p.packing_fraction >= divergence)
-      return fmt::format(
-          "times at {:.4g} are finite, beyond the phi_c = {:.4g} of the best window, [{:.4g}, "
-          "{:.4g}]",
-          p.packing_fraction, divergence, w.lowest, w.highest);
+    if (p.packing_fraction >= w.density)
+      return fmt::format("times at {:.4g} are finite, beyond the phi_c = {:.4g} of {}",
+                         p.packing_fraction, w.density, text(w));
     const double distance = deviation(p, w, law);
     if (!(distance > largest)) continue;
     largest = distance;
-    text = fmt::format(
-        "the law of the best window, [{:.4g}, {:.4g}], misses the time at {:.4g} by {:.2g} "
-        "standard errors",
-        w.lowest, w.highest, p.packing_fraction, distance);
+    objection = fmt::format("the law of {}, misses the time at {:.4g} by {:.2g} standard errors",
+                            text(w), p.packing_fraction, distance);
   }
-  return text;
+  return objection;
 }
 
-/// Windows and what they say together, before it is judged.
-GlassFit fit_windows(const Densities& densities, GlassLaw law) {
-  GlassFit fit{};
-  fit.scatter = densities.scatter;
-  fit.density = fit.low = fit.high = fit.error = fit.statistical = fit.spread = fit.least = unknown;
-  fit.strength = fit.strength_error = unknown;
-  if (densities.points.size() < min_densities) return fit;
-  fit.windows = all_windows(densities.points, law);
-  weigh(fit.windows);
-  fit.window = heaviest(fit.windows);
-  combine_densities(fit, lower_end(densities.points, law));
-  combine_strengths(fit);
-  return fit;
+/// What shorter windows with the same beginning say against φ_c; empty if nothing.
+std::string drift(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
+  for (std::size_t count = min_densities; count < w.densities; ++count) {
+    const GlassWindow shorter = fit_window(points, w.begin, count, law);
+    const double rise = w.chi_square - shorter.chi_square;
+    if (gsl_cdf_chisq_Q(rise, static_cast<double>(w.densities - count)) < min_goodness)
+      return fmt::format(
+          "phi_c follows the end of the window: it is {:.4g} up to {:.4g}, but {:.4g} up to "
+          "{:.4g}, "
+          "and chi^2 differs by {:.3g}",
+          w.density, w.highest, shorter.density, shorter.highest, rise);
+  }
+  return "";
 }
 
-/// The first reason not to believe the fit; empty if there is none.
-std::string objection(const GlassFit& fit, const std::vector<Point>& points, GlassLaw law) {
+/// Whether the other law fits the window as well; empty if not.
+std::string alternative(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
+  const GlassLaw other =
+      law == GlassLaw::mode_coupling ? GlassLaw::vogel_fulcher : GlassLaw::mode_coupling;
+  const double difference =
+      fit_window(points, w.begin, w.densities, other).chi_square - w.chi_square;
+  if (difference >= min_distinction) return "";
+  return fmt::format(
+      "the data do not tell the laws apart: chi^2 of the other one is larger by {:.2g} only, {:g} "
+      "are needed",
+      difference, min_distinction);
+}
+
+/// The first reason not to believe the law of a window; empty if there is none.
+std::string objection(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
+  if (w.goodness < min_goodness)
+    return fmt::format("the law holds in no window: chi^2/dof is {:.3g} in [{:.4g}, {:.4g}]",
+                       w.chi_square / static_cast<double>(w.degrees), w.lowest, w.highest);
+  if (const double factor = growth(densities_of(w, points)); factor < min_growth)
+    return fmt::format(
+        "within {}, the times grow by a factor of only {:.2g}, and to extrapolate takes {:g} or "
+        "more",
+        text(w), factor, min_growth);
+  if (law == GlassLaw::mode_coupling && w.strength_most < min_exponent)
+    return fmt::format(
+        "the exponent is below {:.3g} with a probability of 95 %, and mode-coupling theory allows "
+        "none below {:.4g}",
+        w.strength_most, min_exponent);
+  if (std::string reason = contradiction(w, points, law); !reason.empty()) return reason;
+  if (const double highest = points.back().packing_fraction; !(w.least > highest))
+    return fmt::format(
+        "the density at which times diverge is not distinct from the highest one, {:.4g}", highest);
+  if (!is_bounded(w)) return "";
+  if (std::string reason = drift(w, points, law); !reason.empty()) return reason;
+  return alternative(w, points, law);
+}
+
+/// Whether times drawn anew within their errors support the law as well; empty if so.
+std::string weakness(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
+  int supports = 0;
+  for (std::uint64_t k = 0; k < resamples; ++k) {
+    Stream draw(k, Purpose::resampling);
+    std::vector<Point> again = points;
+    for (Point& p : again) {
+      p.y += p.error * draw.normal();
+      p.error *= std::numbers::sqrt2;
+    }
+    const GlassWindow same = fit_window(again, w.begin, w.densities, law);
+    supports += is_bounded(same) && objection(same, again, law).empty();
+  }
+  if (2 * supports >= resamples) return "";
+  return fmt::format(
+      "the verdict does not survive the errors of the times: drawn anew within them, they support "
+      "the law in {} of {} cases",
+      supports, resamples);
+}
+
+/// Why there is no law, whatever its windows say; empty if there may be one.
+std::string shortage(const std::vector<Point>& points) {
   if (points.size() < min_densities)
     return fmt::format("{} densities in equilibrium; a fit needs {} or more", points.size(),
                        min_densities);
-  const GlassWindow& w = fit.window;
-  const GlassWindow& whole = fit.windows[points.size() - min_densities];
-  if (!(whole.strength > 0)) return "the times do not grow with density";
   if (const double factor = growth(points); factor < min_growth)
     return fmt::format(
         "the times grow by a factor of only {:.2g} from {:.4g} to {:.4g}, and to extrapolate "
         "takes {:g} or more",
-        factor, whole.lowest, whole.highest, min_growth);
-  if (w.goodness < min_goodness)
-    return fmt::format(
-        "the law holds in no window: chi^2/dof is {:.3g} in the best one, [{:.4g}, {:.4g}]",
-        w.chi_square / static_cast<double>(w.degrees), w.lowest, w.highest);
-  const bool has_bound = !std::isnan(fit.high) || !std::isnan(fit.least);
-  if (std::isnan(fit.low) || !has_bound)
-    return fmt::format(
-        "the density at which times diverge is not distinct from the highest one, "
-        "{:.4g}",
-        points.back().packing_fraction);
-  return contradiction(fit, points, law);
+        factor, points.front().packing_fraction, points.back().packing_fraction, min_growth);
+  return "";
 }
 
 }  // namespace
+
+double GlassWindow::strength_error() const {
+  return std::sqrt(covariance(1, 1));
+}
 
 double glass_law(GlassLaw law, double log_prefactor, double strength, double density,
                  double packing_fraction) {
@@ -384,16 +400,21 @@ double glass_law(GlassLaw law, double log_prefactor, double strength, double den
 
 GlassFit fit_glass_law(const std::vector<GlassPoint>& points, GlassLaw law) {
   check(points);
-  const Densities densities = merge(points);
-  GlassFit fit = fit_windows(densities, law);
-  fit.reason = objection(fit, densities.points, law);
-  if (!fit.reason.empty()) {
-    fit.verdict = GlassVerdict::refused;
-  } else if (std::isnan(fit.high)) {
-    fit.verdict = GlassVerdict::lower_bound;
-    fit.reason =
-        fmt::format("above {:.4g} with a probability of 95 %, not bounded from above", fit.least);
-  }
+  const auto [densities, scatter] = merge(points);
+  GlassFit fit{GlassVerdict::refused, shortage(densities), scatter};
+  if (densities.size() < min_densities) return fit;
+  fit.windows = all_windows(densities, law);
+  fit.window = largest(fit.windows);
+  if (fit.reason.empty()) fit.reason = objection(fit.window, densities, law);
+  const bool bounded = is_bounded(fit.window);
+  if (fit.reason.empty() && bounded) fit.reason = weakness(fit.window, densities, law);
+  if (!fit.reason.empty()) return fit;
+  fit.verdict = bounded ? GlassVerdict::found : GlassVerdict::lower_bound;
+  if (!bounded)
+    fit.reason = fmt::format(
+        "if the law holds, it is above {:.4g} with a probability of 95 %, but not bounded from "
+        "above",
+        fit.window.least);
   return fit;
 }
 

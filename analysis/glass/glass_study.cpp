@@ -76,10 +76,11 @@ DiffusionVerdict compare(const GlassFit& relaxation, const GlassFit& diffusion) 
   constexpr double max_errors = 3;
   if (relaxation.verdict != GlassVerdict::found || diffusion.verdict == GlassVerdict::refused)
     return DiffusionVerdict::untested;
-  const bool agrees = diffusion.verdict == GlassVerdict::lower_bound
-                          ? relaxation.density + max_errors * relaxation.error >= diffusion.least
-                          : std::abs(relaxation.density - diffusion.density) <=
-                                max_errors * std::hypot(relaxation.error, diffusion.error);
+  const GlassWindow &of = relaxation.window, &by = diffusion.window;
+  const bool agrees =
+      diffusion.verdict == GlassVerdict::lower_bound
+          ? of.density + max_errors * of.error() >= by.least
+          : std::abs(of.density - by.density) <= max_errors * std::hypot(of.error(), by.error());
   return agrees ? DiffusionVerdict::agrees : DiffusionVerdict::disagrees;
 }
 

@@ -16,6 +16,7 @@ enum class Purpose : std::uint64_t {
   box_trials = 6,
   isotropic_axes = 7,
   kicks = 8,
+  resampling = 9,
   benchmark_cases = 90,
   tests = 100,
 };

@@ -246,8 +246,6 @@ inline Table fit_table() {
             "1",
             {0.8, 0.85, unknown, unknown, unknown},
             {0.005, 0.02, unknown, unknown, unknown}},
-           plain("phi_c_statistical", "1", {0.003, 0.012, unknown, unknown, unknown}),
-           plain("phi_c_spread", "1", {0.004, 0.016, unknown, unknown, unknown}),
            plain("phi_c_least", "1", {0.792, 0.82, 0.795, unknown, 0.785}),
            {"exponent",
             "1",

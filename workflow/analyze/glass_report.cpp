@@ -38,12 +38,11 @@ std::string diffusion_text(const StudiedLaw& studied) {
 std::string law_text(const StudiedLaw& studied) {
   const GlassFit& fit = studied.fit;
   if (fit.verdict != GlassVerdict::found) return "no phi_c: " + fit.reason;
-  return fmt::format(
-      "phi_c = {} (statistical {:.2g}, window {:.2g}), s = {}; best window {:.4g} ... {:.4g}, "
-      "chi^2/dof {:.2f}{}",
-      with_error(fit.density, fit.error), fit.statistical, fit.spread,
-      with_error(fit.strength, fit.strength_error), fit.window.lowest, fit.window.highest,
-      fit.window.chi_square / static_cast<double>(fit.window.degrees), diffusion_text(studied));
+  const GlassWindow& w = fit.window;
+  return fmt::format("phi_c = {}, s = {}; best window {:.4g} ... {:.4g}, chi^2/dof {:.2f}{}",
+                     with_error(w.density, w.error()), with_error(w.strength, w.strength_error()),
+                     w.lowest, w.highest, w.chi_square / static_cast<double>(w.degrees),
+                     diffusion_text(studied));
 }
 
 /// Kinds with what each law says of them; one line where both say the same.
@@ -145,18 +144,19 @@ Json glass_summary(const GlassStudy& study) {
   Json fits = Json::array();
   for (const auto& [kind, law, fit, diffusion] : study.laws) {
     const bool found = fit.verdict == GlassVerdict::found;
+    const GlassWindow& w = fit.window;
     const bool bounded = fit.verdict != GlassVerdict::refused;
     fits.push_back({{"kind", name_of(kind)},
                     {"law", name_of(law)},
-                    {"phi_c", found ? fit.density : unknown},
-                    {"phi_c_error", found ? fit.error : unknown},
-                    {"phi_c_least", bounded ? fit.least : unknown},
+                    {"phi_c", found ? w.density : unknown},
+                    {"phi_c_error", found ? w.error() : unknown},
+                    {"phi_c_least", bounded ? w.least : unknown},
                     {"diffusion", name_of(diffusion)},
-                    {"exponent", found ? fit.strength : unknown},
-                    {"exponent_error", found ? fit.strength_error : unknown},
-                    {"window", {fit.window.lowest, fit.window.highest}},
-                    {"chi2", fit.window.chi_square},
-                    {"dof", fit.window.degrees},
+                    {"exponent", found ? w.strength : unknown},
+                    {"exponent_error", found ? w.strength_error() : unknown},
+                    {"window", {w.lowest, w.highest}},
+                    {"chi2", w.chi_square},
+                    {"dof", w.degrees},
                     {"reason", fit.reason}});
   }
   std::vector<std::string> remarks = order_or_glass(study);

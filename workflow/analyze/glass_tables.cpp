@@ -88,20 +88,20 @@ Table relaxation_table(const GlassStudy& study) {
 Table fit_table(const GlassStudy& study) {
   Table table{
       "glass_fit",
-      fmt::format("Laws of the glass transition. {}. law: power law tau = A (phi_c - "
-                  "phi)^-s, Vogel-Fulcher tau = "
-                  "A exp(s phi/(phi_c - phi)). phi_c is above phi_c_least with a probability "
-                  "of 95 %; window: "
-                  "that of the greatest weight, and its fit.",
-                  kinds_text),
+      fmt::format(
+          "Laws of the glass transition. {}. law: power law tau = A (phi_c - "
+          "phi)^-s, Vogel-Fulcher tau = "
+          "A exp(s phi/(phi_c - phi)). phi_c is above phi_c_least, and s below exponent_most, "
+          "with a probability of 95 %; window: the largest in which the law fits, and its "
+          "fit.",
+          kinds_text),
       {codes("kind", kind_names),
        codes("law", law_names),
        codes("verdict", fit_verdict_names),
        {"phi_c", "1", {}, {}},
-       {"phi_c_statistical", "1", {}, {}},
-       {"phi_c_spread", "1", {}, {}},
        {"phi_c_least", "1", {}, {}},
        {"exponent", "1", {}, {}},
+       {"exponent_most", "1", {}, {}},
        {"window_low", "1", {}, {}},
        {"window_high", "1", {}, {}},
        {"densities", "1", {}, {}},
@@ -119,13 +119,13 @@ Table fit_table(const GlassStudy& study) {
     const auto if_any = [&](double value) { return plain(any ? value : unknown); };
     add_row(table,
             {plain(number(studied.kind)), plain(number(studied.law)), plain(number(fit.verdict)),
-             found ? Entry{fit.density, fit.error} : Entry{unknown, unknown},
-             plain(found ? fit.statistical : unknown), plain(found ? fit.spread : unknown),
-             plain(fit.verdict == GlassVerdict::refused ? unknown : fit.least),
-             found ? Entry{fit.strength, fit.strength_error} : Entry{unknown, unknown},
-             if_any(w.lowest), if_any(w.highest), if_any(static_cast<double>(w.densities)),
-             if_any(w.density), if_any(w.strength), if_any(w.log_prefactor), if_any(w.chi_square),
-             if_any(static_cast<double>(w.degrees)), plain(fit.scatter)});
+             found ? Entry{w.density, w.error()} : Entry{unknown, unknown},
+             plain(fit.verdict == GlassVerdict::refused ? unknown : w.least),
+             found ? Entry{w.strength, w.strength_error()} : Entry{unknown, unknown},
+             if_any(w.strength_most), if_any(w.lowest), if_any(w.highest),
+             if_any(static_cast<double>(w.densities)), if_any(w.density), if_any(w.strength),
+             if_any(w.log_prefactor), if_any(w.chi_square), if_any(static_cast<double>(w.degrees)),
+             plain(fit.scatter)});
   }
   return table;
 }
@@ -145,14 +145,13 @@ Table window_table(const GlassStudy& study) {
                {"exponent", "1", {}, {}},
                {"chi2", "1", {}, {}},
                {"dof", "1", {}, {}},
-               {"goodness", "1", {}, {}},
-               {"weight", "1", {}, {}}}};
+               {"goodness", "1", {}, {}}}};
   for (const StudiedLaw& studied : study.laws)
     for (const GlassWindow& w : studied.fit.windows)
-      add_row(table, {plain(number(studied.kind)), plain(number(studied.law)), plain(w.lowest),
-                      plain(w.highest), plain(w.density), plain(w.low), plain(w.high),
-                      plain(w.strength), plain(w.chi_square), plain(static_cast<double>(w.degrees)),
-                      plain(w.goodness), plain(w.weight)});
+      add_row(table,
+              {plain(number(studied.kind)), plain(number(studied.law)), plain(w.lowest),
+               plain(w.highest), plain(w.density), plain(w.low), plain(w.high), plain(w.strength),
+               plain(w.chi_square), plain(static_cast<double>(w.degrees)), plain(w.goodness)});
   return table;
 }
 

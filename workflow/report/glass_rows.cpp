@@ -86,8 +86,7 @@ std::string fit_row(const Row& row) {
   const double dof = row.value("dof");
   return html_row(
       row.word("kind", kinds),
-      {std::string(row.word("law", law_names)), critical_density(row),
-       row.text("phi_c_statistical"), row.text("phi_c_spread"), row.text("exponent"),
+      {std::string(row.word("law", law_names)), critical_density(row), row.text("exponent"),
        dof > 0 ? fmt::format("{} … {}", row.text("window_low"), row.text("window_high")) : "–",
        dof > 0 ? fmt::format("{:.2f}", row.value("chi2") / dof) : "–",
        dof > 0 ? row.text("scatter") : "–"});
