@@ -18,8 +18,8 @@ const Correlation* l_2(const Displacements& found) {
   return index < orientation.size() ? &orientation[index] : nullptr;
 }
 
-Decay decay(const Displacements& found, const Correlation& correlation) {
-  return {found.lag, correlation.value, correlation.error};
+Decay decay(const std::vector<double>& lag, const Correlation& correlation) {
+  return {lag, correlation.value, correlation.error};
 }
 
 BlockedCurve blocked(const Displacements& found, const Correlation& correlation) {
@@ -59,7 +59,7 @@ template <int Dim>
 Decay orientation(Trajectory<Dim>& seen, const DisplacementOptions& options,
                   const ProgressReport& report) {
   const Displacements found = displacements(seen, options, report);
-  return decay(found, *l_2(found));
+  return decay(found.lag, *l_2(found));
 }
 
 template <int Dim>
@@ -93,7 +93,11 @@ GlassRunData known_data(const GlassSource& run, int dimension, const std::vector
   data.starts_in_equilibrium = run.starts_in_equilibrium;
   data.duration = times.back() - times.front();
   data.wave_number = found.wave_numbers.front();
-  data.scattering = decay(found, found.groups.front().self_scattering.front());
+  if (const CageRelative* cage = run.cage_relative)
+    data.scattering = decay(cage->lag, cage->self_scattering.front());
+  else
+    data.scattering = decay(found.lag, found.groups.front().self_scattering.front());
+  data.relative_to_cage = run.cage_relative;
   data.diffusion = run.diffusion;
   data.rotational_diffusion = run.rotational_diffusion;
   if (!run.compressibility.value.empty())
@@ -119,7 +123,7 @@ std::optional<GlassRunData> glass_run_data(Trajectory<Dim>& trajectory, const Gl
   const Correlation* measured = director ? nullptr : l_2(found);
   const bool is_missing = run.rotors > 0 && !measured;
   Passes passes(is_missing ? 3 : 2, trajectory.read(0).size(), report);
-  if (measured) data.orientation = decay(found, *measured);
+  if (measured) data.orientation = decay(found.lag, *measured);
   if (is_missing) data.orientation = orientation(seen, wanted, passes.next());
   add_halves(data, seen, wanted, passes);
   return data;

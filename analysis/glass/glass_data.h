@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "analysis/dynamics/cage_relative.h"
 #include "analysis/dynamics/diffusion.h"
 #include "analysis/dynamics/displacement.h"
 #include "analysis/dynamics/energy.h"
@@ -18,13 +19,14 @@ struct GlassSource {
   std::size_t rotors;
   bool starts_in_equilibrium;  ///< its first state was drawn from equilibrium
   const Displacements& displacements;
+  const CageRelative* cage_relative;  ///< null if it was not measured
   const CompressibilitySeries& compressibility;
   const OrderSeries& order;
   const DiffusionCoefficient& diffusion;
   const DiffusionCoefficient& rotational_diffusion;
 };
 
-/// What the glass study needs of it: F_s at the first of the wave numbers, L_2 (of a nematic seen from its
+/// What the glass study needs of it: F_s at the first of the wave numbers, relative to the cage if that is known, L_2 (of a nematic seen from its
 /// director), order, diffusion, and these curves once more from each half of the run. No value for runs
 /// that are not evenly sampled: these cannot be judged. `report` is called with the share of
 /// the particles of all passes that are done.

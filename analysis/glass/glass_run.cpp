@@ -1,5 +1,7 @@
 #include "analysis/glass/glass_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -53,6 +55,7 @@ void judge(GlassRun& run, const GlassRunData& data) {
     evidence.times.push_back({"tau_2", run.rotation});
   }
   run.equilibration = judge_equilibration(evidence);
+  reconcile_verdicts(run);
 }
 
 }  // namespace
@@ -69,12 +72,25 @@ GlassRun judge_glass_run(const GlassRunData& data) {
   run.rotors = data.rotors;
   run.duration = data.duration;
   run.wave_number = data.wave_number;
+  run.relative_to_cage = data.relative_to_cage;
   run.diffusion = data.diffusion;
   run.rotational_diffusion = data.rotational_diffusion;
   run.translation = relaxation_time(data.scattering);
   judge_orientation(run, data);
   judge(run, data);
   return run;
+}
+
+void reconcile_verdicts(GlassRun& run) {
+  if (equilibrated(run.equilibration)) run.translation_equilibration = run.equilibration;
+  const double known = std::fmin(run.translation.value, run.translation.most);
+  if (run.duration >= min_relaxations_from_equilibrium * known) return;
+  for (Equilibration* verdict : {&run.equilibration, &run.translation_equilibration})
+    if (equilibrated(*verdict))
+      *verdict = {EquilibrationVerdict::too_short,
+                  fmt::format("the run lasts less than {:g} times tau_alpha",
+                              min_relaxations_from_equilibrium),
+                  verdict->tests};
 }
 
 bool equilibrated(const Equilibration& equilibration) {

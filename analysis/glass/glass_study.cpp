@@ -92,8 +92,13 @@ StudiedLaw studied_law(GlassKind kind, GlassLaw law, const std::vector<GlassRun>
 
 }  // namespace
 
-GlassStudy study_glass(std::vector<GlassRun> runs, const std::string& mixed) {
+GlassStudy study_glass(std::vector<GlassRun> runs, std::string mixed) {
   GlassStudy study{std::move(runs), {}};
+  const auto relative =
+      static_cast<std::size_t>(std::ranges::count_if(study.runs, &GlassRun::relative_to_cage));
+  if (relative > 0) study.remarks.push_back("tau_alpha is of the motion relative to the cage");
+  if (mixed.empty() && relative > 0 && relative < study.runs.size())
+    mixed = "whether the motion relative to the cage is known";
   if (!mixed.empty()) {
     study.remarks.push_back(fmt::format(
         "no laws are fitted: the runs differ in {} as well; make a sweep of its own for each",

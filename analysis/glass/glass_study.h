@@ -13,7 +13,7 @@ namespace vitrel {
 
 /// What a law is fitted to.
 enum class GlassKind {
-  translation,       ///< τ_α
+  translation,       ///< τ_α, in the plane that relative to the cage
   rotation,          ///< τ_2 of runs that are not nematic
   nematic_rotation,  ///< τ_2 of nematic runs
 };
@@ -45,6 +45,6 @@ struct GlassStudy {
 /// translation by the verdict of translation. The same law of 1/D, or 1/D_r, only confirms φ_c or does not: a
 /// motion ceases at one density, so that there is one statement. Of runs that differ in more than
 /// density, seed and duration no law holds: `mixed` names what differs, and then none is fitted.
-GlassStudy study_glass(std::vector<GlassRun> runs, const std::string& mixed = "");
+GlassStudy study_glass(std::vector<GlassRun> runs, std::string mixed = "");
 
 }  // namespace vitrel

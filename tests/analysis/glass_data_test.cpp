@@ -16,8 +16,17 @@ struct Told {
     const Displacements found = displacements(trajectory);
     const OrderSeries orders{{order}, {0.1}};
     const CompressibilitySeries no_pressure{};
-    const GlassSource run{"run", 1,           0.5,    30,        false,
-                          found, no_pressure, orders, diffusion, rotational_diffusion};
+    const GlassSource run{"run",
+                          1,
+                          0.5,
+                          30,
+                          false,
+                          found,
+                          nullptr,
+                          no_pressure,
+                          orders,
+                          diffusion,
+                          rotational_diffusion};
     data = glass_run_data(trajectory, run, {},
                           [&](const Progress& progress) { progresses.push_back(progress); });
   }
@@ -48,6 +57,17 @@ TEST(GlassRunData, TellsOfBothHalvesAsOne) {
   EXPECT_EQ(data->orientation.value,
             displacements(trajectory).groups.front().orientation.front().value);
   expect_one_piece(told, 2);
+}
+
+TEST(GlassRunData, InThePlaneTranslationIsRelativeToTheCage) {
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(30), 80, 1);
+  const Displacements found = displacements(trajectory);
+  const auto cage = cage_relative(trajectory);
+  const GlassSource run{
+      "run", 1, 0.5, 30, false, found, &*cage, {}, {}, diffusion, rotational_diffusion};
+  const auto data = glass_run_data(trajectory, run, {});
+  EXPECT_TRUE(data->relative_to_cage);
+  EXPECT_EQ(data->scattering.value, cage->self_scattering.front().value);
 }
 
 TEST(GlassRunData, OfANematicTellsOfThePassFromTheDirectorToo) {

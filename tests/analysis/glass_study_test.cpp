@@ -72,6 +72,35 @@ TEST(GlassRun, DriftOfTheOrderIsAgeing) {
   EXPECT_EQ(run.translation_equilibration.verdict, EquilibrationVerdict::equilibrated);
 }
 
+/// The verdicts of a run of 1000 after reconciliation.
+GlassRun reconciled(EquilibrationVerdict all, EquilibrationVerdict translation, double tau) {
+  GlassRun run{};
+  run.duration = 1000;
+  run.translation = {tau, 0.1 * tau, unknown, unknown, ""};
+  run.equilibration = {all, "of all", 2};
+  run.translation_equilibration = {translation, "of places", 6};
+  reconcile_verdicts(run);
+  return run;
+}
+
+// A run of docs/glass.md was called ageing in its places and in equilibrium altogether.
+TEST(GlassRun, EquilibriumOfEverythingIsThatOfTranslation) {
+  using enum EquilibrationVerdict;
+  EXPECT_EQ(reconciled(equilibrated, ageing, 10).translation_equilibration.verdict, equilibrated);
+  EXPECT_EQ(reconciled(too_short, ageing, 10).translation_equilibration.verdict, ageing);
+  EXPECT_EQ(reconciled(ageing, equilibrated, 10).translation_equilibration.verdict, equilibrated);
+}
+
+TEST(GlassRun, NoRunShorterThanThreeRelaxationTimesIsLongEnough) {
+  using enum EquilibrationVerdict;
+  EXPECT_EQ(reconciled(equilibrated, equilibrated, 333).equilibration.verdict, equilibrated);
+  const GlassRun run = reconciled(equilibrated, equilibrated, 334);
+  EXPECT_EQ(run.equilibration.verdict, too_short);
+  EXPECT_EQ(run.translation_equilibration.verdict, too_short);
+  EXPECT_EQ(run.equilibration.reason, "the run lasts less than 3 times tau_alpha");
+  EXPECT_EQ(reconciled(ageing, ageing, unknown).equilibration.verdict, ageing);
+}
+
 TEST(GlassRun, DisksHaveNoOrientation) {
   GlassRunData data = run_with(0.7, 5, 20, 0.05);
   data.rotors = 0;
@@ -135,6 +164,15 @@ TEST(GlassStudy, DiffusionConfirmsTheDensityOrDoesNot) {
   EXPECT_EQ(verdict_of_diffusion(0.80, 2), DiffusionVerdict::agrees);
   EXPECT_EQ(verdict_of_diffusion(0.84, 3), DiffusionVerdict::disagrees);
   EXPECT_EQ(verdict_of_diffusion(0.90, 1), DiffusionVerdict::untested);
+}
+
+TEST(GlassStudy, TimesRelativeToTheCageAreNotMixedWithOthers) {
+  GlassRun relative = judge_glass_run(run_with(0.6, 5, 20, 0.05));
+  relative.relative_to_cage = true;
+  EXPECT_FALSE(study_glass({relative}).laws.empty());
+  EXPECT_THAT(study_glass({relative}).remarks.back(), HasSubstr("relative to the cage"));
+  const GlassStudy mixed = study_glass({relative, judge_glass_run(run_with(0.62, 5, 20, 0.05))});
+  EXPECT_TRUE(mixed.laws.empty());
 }
 
 TEST(GlassStudy, NoLawIsFittedToDifferentSystems) {

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/io/number_text.h"
+#include "core/special_values.h"
 #include "tests/support/glass_runs.h"
 #include "workflow/analyze/glass_tables.h"
 
@@ -139,6 +140,27 @@ TEST(GlassTables, GiveTheSameStudyAgain) {
   EXPECT_EQ(glass_text(again), glass_text(study));
   EXPECT_EQ(glass_notes(again), glass_notes(study));
   EXPECT_FALSE(stored_glass_run("x", {}));
+}
+
+// Older versions judged a run in the plane by F_s itself, but stored the time relative to the cage too.
+TEST(GlassTables, TimesRelativeToTheCageOfOlderVersionsAreUsed) {
+  Results results = stored(judge_glass_run(run_with(0.6, 5, 20, 0.05)));
+  const auto add = [&](double tau) {
+    results.tables.push_back({"relaxation_times",
+                              "",
+                              {{"kind", "1", {0, 1, 4}, {}},
+                               {"tau", "time", {5, 20, tau}, {0.1, 1, 0.2}},
+                               {"most", "time", {unknown, unknown, unknown}, {}}}});
+  };
+  add(7);
+  const GlassRun run = *stored_glass_run("job", results);
+  EXPECT_TRUE(run.relative_to_cage);
+  EXPECT_EQ(run.translation.value, 7);
+  EXPECT_EQ(run.translation.error, 0.2);
+  EXPECT_TRUE(equilibrated(run.equilibration));
+  results.tables.pop_back();
+  add(4000);  // of 10,000
+  EXPECT_FALSE(equilibrated(stored_glass_run("job", results)->equilibration));
 }
 
 TEST(GlassTables, ResultsOfAnotherVersionAreRefused) {

@@ -147,12 +147,14 @@ template <int Dim>
 std::optional<GlassRun> measure_glass(TrajectoryFile<Dim>& trajectory, const std::string& name,
                                       const RunAnalysis& run, const Parameters& parameters,
                                       const AnalysisProgress& progress) {
+  const auto& cage = run.dynamics->cage_relative;
   const GlassSource source{.name = name,
                            .seed = trajectory.reader().provenance().seed,
                            .packing_fraction = run.packing_fraction,
                            .rotors = run.rotors,
                            .starts_in_equilibrium = end_in_equilibrium(parameters.stages),
                            .displacements = run.dynamics->displacements,
+                           .cage_relative = cage ? &*cage : nullptr,
                            .compressibility = run.compressibility,
                            .order = run.structure.order,
                            .diffusion = run.diffusion,

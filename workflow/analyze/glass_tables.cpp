@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "analysis/glass/glass_names.h"
@@ -51,7 +52,8 @@ Column codes(const char* name, const std::array<std::string_view, Count>& labels
 Table relaxation_table(const GlassStudy& study) {
   Table table{
       "relaxation",
-      "Relaxation times, one row per run. tau_translation: F_s = 1/e at wave_number; tau_rotation: "
+      "Relaxation times, one row per run. tau_translation: F_s = 1/e at wave_number, in the plane "
+      "relative to the cage; tau_rotation: "
       "L_2 = 1/e (P_2 in three dimensions), in a nematic its connected part, seen from the "
       "director. verdict: from so many tests; verdict_translation: whatever rotation does; only "
       "equilibrated runs enter the fits, of translation by the latter. nematic_order: S, beside "
@@ -193,6 +195,19 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
     const Column& found = column(table, name_of_column);
     return found.error.empty() ? unknown : found.error.front();
   };
+  // Every version stores τ_α relative to the cage here, older ones nowhere else.
+  const auto cage_time = [&]() -> std::optional<RelaxationTime> {
+    constexpr double relative_to_cage = 4;  // its kind in relaxation_tables.h
+    const Table* times = results.find("relaxation_times");
+    if (!times) return std::nullopt;
+    const std::vector<double>& kinds = column(*times, "kind").value;
+    const auto found = std::ranges::find(kinds, relative_to_cage);
+    if (found == kinds.end()) return std::nullopt;
+    const auto row = static_cast<std::size_t>(found - kinds.begin());
+    const Column& tau = column(*times, "tau");
+    return RelaxationTime{tau.value[row], tau.error[row], unknown,
+                          column(*times, "most").value[row], ""};
+  };
   const auto verdict = [&](const char* code, const char* tests, const char* reason) {
     return Equilibration{static_cast<EquilibrationVerdict>(count(*relaxation, code)),
                          results.text(reason), count(*relaxation, tests)};
@@ -222,6 +237,11 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   run.equilibration = verdict("verdict", "tests", reason_key);
   run.translation_equilibration =
       verdict("verdict_translation", "tests_translation", translation_reason_key);
+  if (const auto relative = cage_time()) {
+    run.relative_to_cage = true;
+    run.translation = *relative;
+    reconcile_verdicts(run);
+  }
   return run;
 }
 
