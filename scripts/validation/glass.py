@@ -19,7 +19,7 @@ LIQUIDS = {"glass_polydisperse": "ellipses, κ = 2", "glass_polydisperse_disks":
 AGEING = "glass_fast"
 STUDIES = [*LIQUIDS, AGEING]
 LOWEST = 0.60  # the packing fraction that times are relative to
-MIN_GROWTH = 1e3  # of the slowest time, of both liquids
+MIN_GROWTH = 1e3  # of τ_α relative to the cage, of both liquids
 
 
 # ---- running ----------------------------------------------------------------------------------------------
@@ -86,20 +86,13 @@ class Study:
             return None
         return math.exp(sum(math.log(time[0]) for time in times) / len(times))
 
-    def slowest(self, phi):
-        """The slower of τ_α and τ_2."""
-        times = [self.mean_time(phi, "alpha"), self.mean_time(phi, "2")]
-        known = [time for time in times if time is not None]
-        return max(known) if known else None
-
     def densities(self):
         return sorted({job.phi for job in self.jobs})
 
-    def growth(self):
-        """Of the slowest time, from the lowest density to the highest at which it is known; and that density."""
-        known = [(phi, self.slowest(phi)) for phi in self.densities() if self.slowest(phi)]
-        expect(known and known[0][0] == LOWEST, f"{self.name}: no time at {LOWEST}")
-        return known[-1][1] / known[0][1], known[-1][0]
+    def growth(self, which):
+        """Of a time, from the lowest density to the highest at which it is known, and that density; nothing if unknown."""
+        known = [(phi, self.mean_time(phi, which)) for phi in self.densities() if self.mean_time(phi, which)]
+        return (known[-1][1] / known[0][1], known[-1][0]) if known and known[0][0] == LOWEST else None
 
 
 class Job:
@@ -177,7 +170,7 @@ def times_figure(studies, folder):
                               color=COLOURS[k], marker=marker, linestyle="none", markersize=5,
                               markerfacecolor=COLOURS[k] if filled else "white", label=name if filled and part else None)
         for fit in study.fits:
-            which = {"translation, tau_alpha": "alpha", "rotation, tau_2": "2"}.get(fit["kind"])
+            which = {"translation, tau_alpha": "cage", "rotation, tau_2": "2"}.get(fit["kind"])
             if which and fit["phi_c"] is not None:
                 draw_law(axes, study, fit, which, COLOURS[list(TIMES).index(which)])
         axes.set(title=LIQUIDS[study.name], xlabel="packing fraction φ", yscale="log")
@@ -314,30 +307,49 @@ def density(fit):
 
 
 def fit_rows(study):
-    return [[fit["kind"], fit["law"], density(fit), number(fit["exponent"], fit["exponent_error"]),
+    return [[QUANTITIES[fit["kind"]], fit["law"], density(fit), number(fit["exponent"], fit["exponent_error"]),
              "{:.3f} … {:.3f}".format(*fit["window"]) if fit["dof"] else "–",
-             number(fit["chi2"] / fit["dof"], digits=2) if fit["dof"] else "–", fit["reason"] or "–"] for fit in study.fits]
+             number(fit["chi2"] / fit["dof"], digits=2) if fit["dof"] else "–", fit["diffusion"], fit["reason"] or "–"]
+            for fit in study.fits]
 
 
-FIT_HEAD = ["quantity", "law", "φ_c", "exponent", "best window", "χ²/dof", "reason for no fit"]
+FIT_HEAD = ["quantity", "law", "φ_c", "exponent", "best window", "χ²/dof", "diffusion", "reason for no law"]
 
 
 def fit_of(study, kind, law):
     return next(fit for fit in study.fits if (fit["kind"], fit["law"]) == (kind, law))
 
 
+NAMES = {"power law": "the power law", "Vogel–Fulcher": "the law of Vogel and Fulcher"}
+QUANTITIES = {"translation, tau_alpha": "τ_α relative to the cage", "rotation, tau_2": "τ₂"}
+BY_DIFFUSION = {"untested": "", "agrees": ", and diffusion agrees", "disagrees": ", but diffusion disagrees"}
+
+
+def conclusion(study, subject):
+    """Which law holds for which time, a sentence each."""
+    sentences = []
+    for kind in dict.fromkeys(fit["kind"] for fit in study.fits):
+        found = [fit for fit in study.fits if fit["kind"] == kind and fit["phi_c"] is not None]
+        sentences += [f"{QUANTITIES[kind]} of {subject} follows {NAMES[fit['law']]}, with φ_c = {density(fit)}"
+                      f"{BY_DIFFUSION[fit['diffusion']]}." for fit in found]
+        if not found:
+            sentences.append(f"No law holds for {QUANTITIES[kind]} of {subject}.")
+    return " ".join(sentences)
+
+
 def order_by(study, law):
-    """Whether rotation and translation stop together by this law, in one sentence."""
+    """Whether rotation and translation stop together by this law, in one sentence; empty if it does not hold for both."""
     rotation, translation = (fit_of(study, kind, law) for kind in ("rotation, tau_2", "translation, tau_alpha"))
-    name = "the power law" if law == "power law" else "the law of Vogel and Fulcher"
-    for what, fit in (("τ₂", rotation), ("τ_α", translation)):
-        if fit["phi_c"] is None:
-            return f"By {name} there is no statement: it does not hold for {what} ({fit['reason'] or 'φ_c is not bounded'})."
+    if None in (rotation["phi_c"], translation["phi_c"]):
+        return ""
     distance = translation["phi_c"] - rotation["phi_c"]
     error = math.hypot(translation["phi_c_error"], rotation["phi_c_error"])
     together = "together within two standard errors" if abs(distance) < 2 * error else \
         "rotation first" if distance > 0 else "translation first"
-    return f"By {name}, rotation stops at φ = {density(rotation)} and translation at {density(translation)}: {together}."
+    return f"By {NAMES[law]}, rotation stops at φ = {density(rotation)} and translation at {density(translation)}: {together}."
+
+
+NO_ORDER = "No law holds for both, so that there are no two densities to compare."
 
 
 def ratios(study, which):
@@ -351,6 +363,12 @@ def ratios(study, which):
 def ratio_text(study):
     """How far apart rotation and translation are at both ends."""
     return f"τ₂/τ_α {ratios(study, 'alpha')}; with τ_α relative to the cage the ratio {ratios(study, 'cage')}."
+
+
+def growth_text(study):
+    """By how much each time grows."""
+    grown = [(TIMES[which][0], study.growth(which)) for which in ("2", "cage", "alpha") if study.growth(which)]
+    return ", ".join(f"{name} {float(f'{factor:.2g}'):g}-fold (up to {highest:g})" for name, (factor, highest) in grown)
 
 
 def ageing_rows(study):
@@ -384,8 +402,8 @@ def domains_text(study):
 
 
 def stop_rows(study):
-    """The lowest density of each waiting time from which on a correlation does not fall to 1/e in the time that follows the
-    last one; and that time.
+    """The density of each waiting time from which on a correlation does not fall to 1/e in the time that follows the last
+    one, between two neighbouring densities; and that time.
     """
     first = study.jobs[0]
     waits = first.tables["waiting_times"]["waiting_time"]
@@ -394,8 +412,12 @@ def stop_rows(study):
     def stops(name, k):
         moving = [job.phi for job in study.jobs
                   if any(t <= window and y <= 1 / math.e for t, y in job.curve(("ageing", f"{name}_{k}")))]
-        beyond = [job.phi for job in study.jobs if not moving or job.phi > max(moving)]
-        return f"{beyond[0]:g}" if beyond else f"> {max(moving):g}"
+        if not moving:
+            return f"≤ {first.phi:g}"
+        beyond = [job.phi for job in study.jobs if job.phi > max(moving)]
+        if not beyond:
+            return f"> {max(moving):g}"
+        return f"{(max(moving) + beyond[0]) / 2:g} ± {(beyond[0] - max(moving)) / 2:g}"
 
     return window, [[f"{waited:g}", stops("l", k), stops("fs", k)] for k, waited in enumerate(waits, start=1)]
 
@@ -418,15 +440,14 @@ def page(liquids, ageing, slow):
     text = (ROOT / "scripts/validation/glass_page.txt").read_text(encoding="utf-8")
     values = {"ageing": table(["φ", "t_w", "ξ", "τ_α", "τ₂", "MSD at the end", "MSR at the end"], ageing_rows(ageing)),
               "hours": f"{sum(study.seconds() for study in (*liquids, ageing)) / 3600:.1f}",
-              "order": " ".join(order_by(liquids[0], law) for law in ("power law", "Vogel–Fulcher")),
+              "order": " ".join(filter(None, (order_by(liquids[0], law) for law in NAMES))) or NO_ORDER,
               "ratio": ratio_text(liquids[0]), "domains": domains_text(ageing),
               "slow": f"{slow:.2g}", "left": left_text((*liquids, ageing))}
     window, stops = stop_rows(ageing)
     values |= {"window": f"{window:g}", "stops": table(["t_w", "rotation stops at φ", "translation stops at φ"], stops)}
     for study, key in zip(liquids, ("ellipses", "disks")):
-        growth, densest = study.growth()
         values |= {f"runs_{key}": table(RUN_HEAD, run_rows(study)), f"fits_{key}": table(FIT_HEAD, fit_rows(study)),
-                   f"growth_{key}": f"{growth:.3g}", f"densest_{key}": f"{densest:g}"}
+                   f"growth_{key}": growth_text(study), f"conclusion_{key}": conclusion(study, key)}
     for key, value in values.items():
         text = text.replace(f"@{key}@", value)
     return wrapped(text)
@@ -452,7 +473,7 @@ def studied(build, is_quick):
 def measure(build):
     *liquids, ageing = studied(build, is_quick=False)
     for study in liquids:
-        growth, densest = study.growth()
+        growth, densest = study.growth("cage")
         expect(growth >= MIN_GROWTH, f"{study.name}: times grow only {growth:.3g}-fold up to {densest}")
     slow = draw(build, liquids, ageing, ROOT / "docs" / "figures")
     PAGE.write_text(page(liquids, ageing, slow), encoding="utf-8")
