@@ -28,6 +28,7 @@ constexpr double one_error = 1;        // rise of χ² at the ends of a 68.3 % i
 constexpr double limit_95 = 2.7055;    // and at a limit of 95 %, 1.645²
 constexpr double min_distinction = 4;  // by which χ² of the other law must be larger
 constexpr double max_deviation = 3;    // standard errors, of a density from the extrapolated law
+constexpr std::size_t max_fewer = 3;   // densities of a shorter window
 constexpr int resamples = 40;
 constexpr int scan_points = 400, limit_points = 50;
 
@@ -304,7 +305,8 @@ std::string contradiction(const GlassWindow& w, const std::vector<Point>& points
 
 /// What shorter windows with the same beginning say against φ_c; empty if nothing.
 std::string drift(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
-  for (std::size_t count = min_densities; count < w.densities; ++count) {
+  const std::size_t fewest = std::max(min_densities + max_fewer, w.densities) - max_fewer;
+  for (std::size_t count = fewest; count < w.densities; ++count) {
     const GlassWindow shorter = fit_window(points, w.begin, count, law);
     const double rise = w.chi_square - shorter.chi_square;
     if (gsl_cdf_chisq_Q(rise, static_cast<double>(w.densities - count)) < min_goodness)
@@ -321,13 +323,12 @@ std::string drift(const GlassWindow& w, const std::vector<Point>& points, GlassL
 std::string alternative(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
   const GlassLaw other =
       law == GlassLaw::mode_coupling ? GlassLaw::vogel_fulcher : GlassLaw::mode_coupling;
-  const double difference =
-      fit_window(points, w.begin, w.densities, other).chi_square - w.chi_square;
-  if (difference >= min_distinction) return "";
+  const double chi_square = fit_window(points, w.begin, w.densities, other).chi_square;
+  if (chi_square - w.chi_square >= min_distinction) return "";
   return fmt::format(
-      "the data do not tell the laws apart: chi^2 of the other one is larger by {:.2g} only, {:g} "
-      "are needed",
-      difference, min_distinction);
+      "the data do not tell the laws apart: chi^2 is {:.2f} by this one and {:.2f} by the other, "
+      "which must be larger by {:g}",
+      w.chi_square, chi_square, min_distinction);
 }
 
 /// The first reason not to believe the law of a window; empty if there is none.

@@ -24,12 +24,11 @@ enum class GlassLaw {
 struct GlassWindow {
   double lowest = 0, highest = 0;        ///< packing fractions
   std::size_t begin = 0, densities = 0;  ///< which of all densities, and how many
-  double density;    ///< φ_c; NaN if the best one is at the upper end of its range
-  double low, high;  ///< where χ² is 1 above its minimum (68 %); NaN on an open side
-  double least;      ///< φ_c is above it with a probability of 95 %; NaN if open below
-  double strength;   ///< s
-  double
-      strength_most;  ///< s is below it with a probability of 95 %; infinite if φ_c is open above
+  double density;              ///< φ_c; NaN if the best one is at the upper end of its range
+  double low, high;            ///< where χ² is 1 above its minimum (68 %); NaN on an open side
+  double least;                ///< φ_c is above it with a probability of 95 %; NaN if open below
+  double strength;             ///< s
+  double strength_most;        ///< s is below it likewise; infinite if φ_c is open above
   double log_prefactor;        ///< ln A
   Eigen::Matrix3d covariance;  ///< of ln A, s and φ_c, from the curvature of χ²
   double chi_square;
@@ -69,34 +68,35 @@ struct GlassFit {
 /// 3. The law fits a window if chance exceeds its χ² in 5 % of the cases or more. The window of the result is
 ///    the largest that it fits; of equally large ones that with the least χ².
 ///
-/// Found if none of these rules forbids it, each of which has its reason:
-/// - There are at least five densities, the times grow, and they grow by a factor of ten or more, over all densities
-///   and within the window: what has hardly begun to rise says nothing about a divergence, however well a
-///   law fits.
+/// Found if all of these rules hold; the first that does not is the reason:
+/// - There are at least five densities, the times grow, and they grow by a factor of ten or more, over all
+///   densities and within the window: what has hardly begun to rise says nothing about a divergence, however
+///   well a law fits.
 /// - The law fits some window.
 /// - The exponent of the power law may be one of mode-coupling theory: its limit of 95 % is not below 1.765.
-///   γ = 1/(2a) + 1/(2b) with Γ(1 − a)²/Γ(1 − 2a) = Γ(1 + b)²/Γ(1 + 2b) (gotze1992), so that a ≤ 0.395 and
-///   b ≤ 1; at a = 0.395, b = 1 it is 1.765, and it grows as both become smaller.
+///   γ = 1/(2a) + 1/(2b) with Γ(1 − a)²/Γ(1 − 2a) = Γ(1 + b)²/Γ(1 + 2b) (gotze1992), so that a ≤ 0.395 and b ≤ 1;
+///   at a = 0.395, b = 1 it is 1.765, and it grows as both become smaller.
 /// - φ_c is above the highest density of all, with a probability of 95 %.
-/// - What was left out is predicted: no density outside of the window is beyond φ_c, or more than three standard
-///   errors, those of the time and of the extrapolation together, from the law.
-/// - φ_c does not follow the end of the window. A window of n densities less with the same beginning, and no less than
-///   five, has a χ² that is less by a χ² of n degrees of freedom if the law holds; chance must exceed it in 5 % of the
-///   cases or more. A φ_c that moves by z of the errors of the shorter window makes it z² at least.
-/// - The other law fits the window worse: its χ² is larger by 4 or more. Both laws have three parameters. If the
-///   other one is true and D is what this one adds to χ² without noise, the difference is normal about −D with a
-///   standard deviation of 2√D; it exceeds 4 with a probability of at most 2.3 %, at D = 4.
-/// - It survives the errors of the times: drawn anew within them forty times, by a fixed stream, they support the law in
-///   the same window in at least half of the cases. These times are twice as noisy as the measured ones, once by
-///   nature and once by the draw, so their errors are larger by √2.
+/// - What was left out is predicted: no density outside of the window is beyond φ_c, or more than three
+///   standard errors, those of the time and of the extrapolation together, from the law.
+/// - φ_c does not follow the end of the window. Without its last n densities, one to three, χ² is smaller by as
+///   much as a χ² of n degrees of freedom if the law holds; chance must exceed that difference in 5 % of the
+///   cases or more. If φ_c moves by z errors of the shorter window, the difference is z² at least.
+/// - The other law fits the window worse: its χ² is larger by 4 or more. Both laws have three parameters. If
+///   the other one is true and D is what this one adds to χ² without noise, the difference is normal about −D
+///   with a standard deviation of 2√D; it exceeds 4 with a probability of at most 2.3 %, at D = 4.
+/// - It survives the errors of the times: drawn anew within them forty times, by a fixed stream, they support
+///   the law in the same window in at least half of the cases. These times are twice as noisy as the measured
+///   ones, once by nature and once by the draw, so their errors are larger by √2.
 ///
-/// If φ_c has no upper limit of 95 %, the last three are not asked: there is only a lower bound, of a law that is not
-/// named. Of made-up power laws over three decades (γ = 2.4, errors of 5 %, nine densities) 95 % are found, and of
-/// other laws of that growth at most 2 % are taken for one (tests/analysis/glass_fit_test.cpp). No law is what a liquid
-/// that crosses over from one way of relaxing to another leads to, however slow it becomes.
+/// If φ_c has no upper limit of 95 %, the last three do not apply: there is only a lower bound, of a law that
+/// is not named. Of made-up power laws over three decades (γ = 2.4, errors of 5 %, nine densities) more than
+/// nine in ten are found, and of other laws of that growth less than one in twenty is taken for one
+/// (tests/analysis/glass_fit_test.cpp). Departures of the size of the errors cannot be seen. That no law holds
+/// is expected of a liquid that crosses over from one way of relaxing to another.
 ///
-/// φ_c remains an extrapolation. Throws UserError for a point without a positive time and a positive error, or with a
-/// packing fraction outside (0, 1).
+/// φ_c remains an extrapolation. Throws UserError for a point without a positive time and a positive error, or
+/// with a packing fraction outside (0, 1).
 GlassFit fit_glass_law(const std::vector<GlassPoint>& points, GlassLaw law);
 
 /// ln τ by the law.

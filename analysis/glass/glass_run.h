@@ -78,9 +78,10 @@ struct GlassRun {
 /// factor of thirty at the highest densities of docs/glass.md, and blocks of that shorter time are not independent.
 GlassRun judge_glass_run(const GlassRunData& data);
 
-/// Makes both verdicts follow from one another and from τ_α. What is in equilibrium altogether is so in its places: the
-/// tests of everything contain those of translation, with blocks of the slowest motion. No run that is shorter
-/// than three of its τ_α is long enough, as the results of older versions may say, which judged in the plane by F_s itself.
+/// Keeps the two verdicts from contradicting each other and τ_α. A run in equilibrium altogether is so in its
+/// translation: the tests of everything contain those of translation, with blocks of the slowest motion. A run
+/// shorter than three of its τ_α is too short. Results of older versions may say otherwise, as these judged by
+/// F_s itself in the plane.
 void reconcile_verdicts(GlassRun& run);
 
 /// Whether the verdict is `equilibrated`.
