@@ -312,8 +312,7 @@ std::string drift(const GlassWindow& w, const std::vector<Point>& points, GlassL
     if (gsl_cdf_chisq_Q(rise, static_cast<double>(w.densities - count)) < min_goodness)
       return fmt::format(
           "phi_c follows the end of the window: it is {:.4g} up to {:.4g}, but {:.4g} up to "
-          "{:.4g}, "
-          "and chi^2 differs by {:.3g}",
+          "{:.4g}, and chi^2 differs by {:.3g}",
           w.density, w.highest, shorter.density, shorter.highest, rise);
   }
   return "";
@@ -413,8 +412,8 @@ GlassFit fit_glass_law(const std::vector<GlassPoint>& points, GlassLaw law) {
   fit.verdict = bounded ? GlassVerdict::found : GlassVerdict::lower_bound;
   if (!bounded)
     fit.reason = fmt::format(
-        "if the law holds, it is above {:.4g} with a probability of 95 %, but not bounded from "
-        "above",
+        "if the law holds, it is above {:.4g} with a probability of 95 %, and not bounded "
+        "from above",
         fit.window.least);
   return fit;
 }
