@@ -11,16 +11,19 @@ from pages import PIXELS, SHIFT, WIDTHS, PageTest
 LOOK = f"(() => {{ {PIXELS}" + """
   const { data, width } = pixels(document.getElementById('scene'));
   const colours = new Set();
-  let sum = 0, coloured = 0, red = 0, x = 0, y = 0;
+  let sum = 0, coloured = 0, red = 0, x = 0, y = 0, last = -1;
   for (let at = 0; at < data.length; at += 4) {
-    const [r, g, b] = data.subarray(at, at + 3);
-    colours.add(r << 16 | g << 8 | b);
-    sum = (sum * 31 + (r << 16 | g << 8 | b)) % 2147483647;
+    const r = data[at], g = data[at + 1], b = data[at + 2], colour = r << 16 | g << 8 | b;
+    if (colour !== last) colours.add(last = colour);
+    sum = Math.imul(sum, 31) + colour | 0;
     if (Math.max(r, g, b) - Math.min(r, g, b) > 12) { ++coloured; x += at / 4 % width; y += Math.floor(at / 4 / width); }
     red += r > 80 && g < 0.32 * r && b < 0.5 * r;
   }
   return [colours.size, sum, coloured, red, x / coloured, y / coloured];
 })()"""
+
+# Pictures that are only compared with each other are as good when small, and cost a software renderer much less.
+SMALL = min(WIDTHS)
 
 ROOT = math.sqrt
 
@@ -194,7 +197,7 @@ class Packing(PageTest):
         self.assertEqual(first, "cooling-heading")
 
     def test_turns_by_keys_and_comes_back(self):
-        self.open("packing.html")
+        self.open("packing.html", SMALL)
         first = self.look()[1]
         self.focus("#scene")
         pictures = {first}
@@ -252,7 +255,7 @@ class Packing(PageTest):
         self.assertGreater(self.look()[2], 1.5 * area)
 
     def test_slices_take_away_more_and_more(self):
-        self.open("packing.html")
+        self.open("packing.html", SMALL)
         whole = self.look()[2]
         for axis in ("x", "y", "z", "view"):
             with self.subTest(axis=axis):
@@ -264,12 +267,12 @@ class Packing(PageTest):
                 self.assertGreater(seen[1], seen[2])
                 self.assertGreater(seen[2], 0)
                 # What the last face of the box cuts, if it is a face.
-                self.assertLess(seen[3], 0.12 * whole if axis != "view" else 100)
+                self.assertLess(seen[3], 0.12 * whole if axis != "view" else 25)
         self.slide(1, "x")
         self.assertEqual(self.look()[2], whole)
 
     def test_images_and_cuts(self):
-        self.open("packing.html")
+        self.open("packing.html", SMALL)
         cut = self.look()[2]
         self.click("#images")
         without_images = self.look()[2]

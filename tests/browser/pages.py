@@ -22,11 +22,11 @@ PIXELS = """const pixels = (canvas) => {
 LOOK = f"(() => {{ {PIXELS}" + """
   const { data, width } = pixels(document.getElementById('scene'));
   const colours = new Set();
-  let sum = 0, red = 0, x = 0, y = 0;
+  let sum = 0, red = 0, x = 0, y = 0, last = -1;
   for (let at = 0; at < data.length; at += 4) {
-    const [r, g, b] = data.subarray(at, at + 3);
-    colours.add(r << 16 | g << 8 | b);
-    sum = (sum * 31 + (r << 16 | g << 8 | b)) % 2147483647;
+    const r = data[at], g = data[at + 1], b = data[at + 2], colour = r << 16 | g << 8 | b;
+    if (colour !== last) colours.add(last = colour);
+    sum = Math.imul(sum, 31) + colour | 0;
     if (r === 242 && g === 0 && b === 60) { ++red; x += at / 4 % width; y += Math.floor(at / 4 / width); }
   }
   return [colours.size, sum, red, red ? x / red : null, red ? y / red : null];
