@@ -105,15 +105,16 @@ std::optional<std::string> watch(pid_t process, const Shared& shared) {
   return std::nullopt;
 }
 
-void keep(const Target& target, const Options& options, std::uint64_t input) {
+void keep(const std::string& name, const std::string& file, const Options& options,
+          std::uint64_t input) {
   if (options.keep.empty()) return;
   fs::create_directories(options.keep);
-  fs::copy_file(target.file,
-                options.keep / fmt::format("{}-{}-{}", target.name, input, target.file),
+  fs::copy_file(file, options.keep / fmt::format("{}-{}-{}", name, input, file),
                 fs::copy_options::overwrite_existing);
 }
 
-std::uint64_t fuzz(const Target& target, const Options& options) {
+std::uint64_t fuzz(const NamedTarget& named, const Options& options) {
+  const Target target = named.make();
   Shared& shared = make_shared_memory();
   std::uint64_t findings = 0;
   const std::uint64_t end = options.first + options.inputs;
@@ -126,11 +127,11 @@ std::uint64_t fuzz(const Target& target, const Options& options) {
     next = last;
     if (!finding) continue;
     ++findings;
-    fmt::print("{} --first {}: {}\n", target.name, shared.input.load(), *finding);
-    keep(target, options, shared.input);
+    fmt::print("{} --first {}: {}\n", named.name, shared.input.load(), *finding);
+    keep(named.name, target.file, options, shared.input);
     next = shared.input + 1;
   }
-  fmt::print("{}: {} inputs, {} findings\n", target.name, options.inputs, findings);
+  fmt::print("{}: {} inputs, {} findings\n", named.name, options.inputs, findings);
   return findings;
 }
 
@@ -170,7 +171,8 @@ int run(const Options& options) {
   checked(setenv("XDG_CACHE_HOME", folder.path().c_str(), 1), "setenv");
   std::uint64_t findings = 0;
   bool found = false;
-  for (const Target& target : make_targets(folder.path())) {
+  fs::current_path(folder.path());
+  for (const NamedTarget& target : targets()) {
     if (!options.target.empty() && target.name != options.target) continue;
     found = true;
     findings += fuzz(target, options);

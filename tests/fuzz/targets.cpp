@@ -22,28 +22,36 @@ void write(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-/// A small run in each of the dimensions, and of soft disks.
+/// A small run in each of the dimensions, and of soft disks, of three frames each.
 const std::string plane =
     "[system]\nparticles = 12\npacking_fraction = 0.4\n"
     "[[species]]\nname = \"A\"\nfraction = 0.5\naspect_ratio = 2\n"
     "[[species]]\nname = \"B\"\nfraction = 0.5\naspect_ratio = 1\nsize = 0.8\n"
     "[dynamics]\nequilibration = 0\nduration = 2\n"
     "[output]\nvelocities = true\n"
-    "samples = { spacing = \"linear\", interval = 0.5 }\ncorrelations = { interval = 0.1 }\n";
+    "samples = { spacing = \"linear\", interval = 1 }\ncorrelations = { interval = 0.1 }\n";
 const std::string space =
     "[system]\ndimension = 3\nparticles = 10\npacking_fraction = 0.2\n"
     "[[species]]\nsemi_axes = [1.25, 1, 0.8]\n"
     "[dynamics]\nequilibration = 0\nduration = 2\n"
     "[output]\nvelocities = true\n"
-    "samples = { spacing = \"linear\", interval = 0.5 }\n";
+    "samples = { spacing = \"linear\", interval = 1 }\n";
 const std::string soft =
     "[system]\nparticles = 12\npacking_fraction = 0.5\n[[species]]\naspect_ratio = 1\n"
     "[dynamics]\nequilibration = 0\nduration = 2\n"
     "[dynamics.contact]\nlaw = \"linear_dashpot\"\nstiffness = \"1e5 N/m\"\ndamping = \"200 "
     "kg/s\"\n"
     "[output]\nvelocities = true\n"
-    "samples = { spacing = \"linear\", interval = 0.5 }\n";
+    "samples = { spacing = \"linear\", interval = 1 }\n";
 const std::string sweep = plane + "[sweep.grid]\n\"system.seed\" = [1, 2]\n";
+/// Its few frames leave little to be analysed besides the correlations that it measures itself.
+const std::string correlated =
+    "[system]\nparticles = 12\npacking_fraction = 0.4\n"
+    "[[species]]\nname = \"A\"\nfraction = 0.5\naspect_ratio = 2\n"
+    "[[species]]\nname = \"B\"\nfraction = 0.5\naspect_ratio = 1\nsize = 0.8\n"
+    "[dynamics]\nequilibration = 0\nduration = 2\n"
+    "[output]\n"
+    "samples = { spacing = \"linear\", interval = 2 }\ncorrelations = { interval = 0.1 }\n";
 const char* const pair =
     "[[body]]\nsemi_axes = [2, 1]\nposition = [0, 0]\nangle = 0.1\n"
     "velocity = [1, 0]\nangular_velocity = 0.2\n"
@@ -71,6 +79,19 @@ void succeed(const std::vector<std::string>& command) {
   throw std::runtime_error(fmt::format("{}: {}", command_line(command), outcome.errors));
 }
 
+/// Writes <name>.h5 and what belongs to it into the working folder, unless another target did.
+void make_run(const std::string& name, const std::string& parameters) {
+  const std::string file = name + ".h5";
+  if (fs::exists(file)) return;
+  write(name + ".toml", parameters);
+  succeed({"run", name + ".toml", "-o", file, "-q"});
+}
+
+void make_runs() {
+  for (const auto& [name, text] : {std::pair{"plane", plane}, {"space", space}, {"soft", soft}})
+    make_run(name, text);
+}
+
 /// The contents of files in the working folder.
 std::vector<std::string> contents(const std::vector<fs::path>& files) {
   std::vector<std::string> texts;
@@ -88,7 +109,25 @@ std::vector<std::string> parameter_files() {
   return texts;
 }
 
+Target parameters() {
+  return {"fuzzed.toml",
+          Kind::text,
+          parameter_files(),
+          {{"run", "fuzzed.toml", "-o", "out.h5", "--dry-run"},
+           {"sweep", "fuzzed.toml", "-o", "sweep", "--status"}}};
+}
+
+Target pairs() {
+  return {"pair.toml",
+          Kind::text,
+          {pair},
+          {{"pair", "gap", "pair.toml"},
+           {"pair", "contact-time", "pair.toml"},
+           {"pair", "overlap", "pair.toml"}}};
+}
+
 std::vector<std::vector<std::string>> commands_for(const std::string& file) {
+  write("p.toml", plane);
   return {{"check", file, "-q"},
           {"analyze", file, "-q", "-o", "results.h5"},
           {"export", file, "--to", "csv", "-o", "out.csv", "-q"},
@@ -97,15 +136,33 @@ std::vector<std::vector<std::string>> commands_for(const std::string& file) {
 
 /// A file of another program, whose shapes are in the parameter file where it has none.
 Target foreign(const std::string& format, Kind kind) {
+  make_runs();
+  std::vector<fs::path> originals;
+  for (const std::string name : {"plane", "space", "soft"}) {
+    const fs::path& original = originals.emplace_back(name + "." + format);
+    succeed({"export", name + ".h5", "--to", format, "-o", original, "-q"});
+  }
   const std::string file = "foreign." + format;
   auto commands = commands_for(file);
   commands.push_back({"check", file, "--params", "p.toml", "-q"});
-  return {format, file, kind, contents({"plane." + format, "space." + format, "soft." + format}),
-          commands};
+  return {file, kind, contents(originals), commands};
+}
+
+Target gsd() {
+  return foreign("gsd", Kind::bytes);
+}
+
+Target xyz() {
+  return foreign("xyz", Kind::text);
+}
+
+Target csv() {
+  return foreign("csv", Kind::text);
 }
 
 /// Files of vitrel that name another program as their creator.
 Target foreign_h5md() {
+  make_runs();
   std::vector<fs::path> files;
   for (const char* name : {"plane", "space", "soft"}) {
     const fs::path& file = files.emplace_back(std::string("other_") + name + ".h5");
@@ -114,60 +171,53 @@ Target foreign_h5md() {
     written.root().group("h5md/creator").set_attribute("name", std::string("another program"));
     written.close();
   }
-  return {"h5md", "foreign.h5", Kind::hdf5, contents(files), commands_for("foreign.h5")};
+  return {"foreign.h5", Kind::hdf5, contents(files), commands_for("foreign.h5")};
+}
+
+Target lammps() {
+  return {"foreign.lammps", Kind::text, {dump, data}, commands_for("foreign.lammps")};
 }
 
 Target trajectory() {
+  make_runs();
   auto commands = commands_for("fuzzed.h5");
   commands.push_back({"report", "fuzzed.h5", "-o", "report.html", "-q"});
   commands.push_back({"export", "fuzzed.h5", "--to", "xyz", "-o", "out.xyz", "-q"});
-  return {"trajectory", "fuzzed.h5", Kind::hdf5, contents({"plane.h5", "space.h5", "soft.h5"}),
-          commands};
+  return {"fuzzed.h5", Kind::hdf5, contents({"plane.h5", "space.h5", "soft.h5"}), commands};
+}
+
+Target checkpoint() {
+  make_run("plane", plane);
+  fs::copy_file("plane.h5", "run.h5");
+  return {"run.h5.checkpoint",
+          Kind::hdf5,
+          contents({"plane.h5.checkpoint"}),
+          {{"run", "plane.toml", "-o", "run.h5", "--dry-run"}}};
+}
+
+Target correlations() {
+  make_run("correlated", correlated);
+  return {"correlated.h5.correlations.h5",
+          Kind::hdf5,
+          contents({"correlated.h5.correlations.h5"}),
+          {{"analyze", "correlated.h5", "-o", "results.h5", "-q", "--set",
+            "analysis.structure.frames=0"}}};
 }
 
 }  // namespace
 
-std::vector<Target> make_targets(const fs::path& folder) {
-  fs::current_path(folder);
-  for (const auto& [name, text] : {std::pair{"plane", plane}, {"space", space}, {"soft", soft}}) {
-    const std::string file = std::string(name) + ".h5";
-    write(std::string(name) + ".toml", text);
-    succeed({"run", std::string(name) + ".toml", "-o", file, "-q"});
-    for (const char* format : {"csv", "xyz", "gsd"})
-      succeed({"export", file, "--to", format, "-o", std::string(name) + "." + format, "-q"});
-  }
-  write("p.toml", plane);
-  fs::copy_file("plane.h5", "run.h5");
-  return {
-      {"parameters",
-       "fuzzed.toml",
-       Kind::text,
-       parameter_files(),
-       {{"run", "fuzzed.toml", "-o", "out.h5", "--dry-run"},
-        {"sweep", "fuzzed.toml", "-o", "sweep", "--status"}}},
-      {"pairs",
-       "pair.toml",
-       Kind::text,
-       {pair},
-       {{"pair", "gap", "pair.toml"},
-        {"pair", "contact-time", "pair.toml"},
-        {"pair", "overlap", "pair.toml"}}},
-      trajectory(),
-      {"checkpoint",
-       "run.h5.checkpoint",
-       Kind::hdf5,
-       contents({"plane.h5.checkpoint"}),
-       {{"run", "p.toml", "-o", "run.h5", "--dry-run"}}},
-      {"correlations",
-       "plane.h5.correlations.h5",
-       Kind::hdf5,
-       contents({"plane.h5.correlations.h5"}),
-       {{"analyze", "plane.h5", "-o", "results.h5", "-q", "--set", "analysis.structure.frames=0"}}},
-      foreign("gsd", Kind::bytes),
-      foreign("xyz", Kind::text),
-      foreign("csv", Kind::text),
-      foreign_h5md(),
-      {"lammps", "foreign.lammps", Kind::text, {dump, data}, commands_for("foreign.lammps")}};
+const std::vector<NamedTarget>& targets() {
+  static const std::vector<NamedTarget> all = {{"parameters", parameters},
+                                               {"pairs", pairs},
+                                               {"trajectory", trajectory},
+                                               {"checkpoint", checkpoint},
+                                               {"correlations", correlations},
+                                               {"gsd", gsd},
+                                               {"xyz", xyz},
+                                               {"csv", csv},
+                                               {"h5md", foreign_h5md},
+                                               {"lammps", lammps}};
+  return all;
 }
 
 const std::vector<std::string>& write_input(const Target& target, Stream& stream) {
