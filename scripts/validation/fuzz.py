@@ -1,11 +1,14 @@
-"""Damaged files for every reader of the program, under the address and undefined-behaviour sanitizers."""
+"""Damaged files for every reader of the program, under the address and undefined-behaviour sanitizers. Each kind of file
+is a part; build/fuzz keeps its result, and the table shows all parts that were measured.
+"""
 
 import concurrent.futures
+import json
 import os
 import re
 import subprocess
 
-from validation.common import ROOT, Failure, table
+from validation.common import ROOT, Failure, output_of, table
 
 TITLE = "Damaged files"
 
@@ -22,6 +25,8 @@ TARGETS = {
     "h5md": "H5MD of other programs",
     "lammps": "dumps and data files of LAMMPS",
 }
+PARTS = tuple(TARGETS)
+KEPT = ROOT / "build" / "fuzz"
 
 
 def sanitized_program():
@@ -30,28 +35,50 @@ def sanitized_program():
     return ROOT / "build/asan/tests/fuzz/vitrel-fuzz"
 
 
-def findings(program, target):
-    """The number of inputs that were read badly; they are kept below the build folder."""
+def findings(program, target, inputs):
+    """The number of these inputs that were read badly; they are kept below the build folder."""
     options = {"UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1", "ASAN_OPTIONS": "detect_leaks=0"}
-    kept = ROOT / "build" / "fuzz"
-    done = subprocess.run([program, "--target", target, "--inputs", str(INPUTS), "--keep", kept], capture_output=True,
-                          text=True, check=False, env=os.environ | options)
+    words = [program, "--target", target, "--first", str(inputs.start), "--inputs", str(len(inputs)), "--keep", KEPT]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, env=os.environ | options)
     print(done.stdout + done.stderr, flush=True)
-    counted = re.search(rf"^{target}: {INPUTS} inputs, (\d+) findings$", done.stdout, re.MULTILINE)
+    counted = re.search(rf"^{target}: {len(inputs)} inputs, (\d+) findings$", done.stdout, re.MULTILINE)
     if not counted or int(counted[1]) > 0:
-        raise Failure(f"{target}: see above and {kept}")
+        raise Failure(f"{target}: see above and {KEPT}")
     return int(counted[1])
 
 
-def measure(_build):
+def measure_target(program, target, pool):
+    """All cores share the inputs of one target."""
+    result_file(target).unlink(missing_ok=True)
+    share = -(-INPUTS // os.cpu_count())
+    ranges = [range(first, min(first + share, INPUTS)) for first in range(0, INPUTS, share)]
+    found = sum(pool.map(lambda inputs: findings(program, target, inputs), ranges))
+    commit = output_of(["git", "-C", ROOT, "rev-parse", "--short=8", "HEAD"]).strip()
+    KEPT.mkdir(parents=True, exist_ok=True)
+    result_file(target).write_text(json.dumps({"findings": found, "commit": commit}), encoding="utf-8")
+
+
+def result_file(target):
+    return KEPT / f"{target}.json"
+
+
+def row(target):
+    if not result_file(target).exists():
+        return [TARGETS[target], "not measured", "", ""]
+    result = json.loads(result_file(target).read_text(encoding="utf-8"))
+    return [TARGETS[target], f"{INPUTS:,}".replace(",", " "), result["findings"], result["commit"]]
+
+
+def measure(_build, parts=PARTS):
     program = sanitized_program()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        counts = list(pool.map(lambda target: findings(program, target), TARGETS))
-    rows = [[name, f"{INPUTS:,}".replace(",", " "), count] for name, count in zip(TARGETS.values(), counts)]
+        for target in parts:
+            measure_target(program, target, pool)
+    rows = [row(target) for target in TARGETS]
     return f"""Files are damaged at random: bits, bytes, lines and numbers change, parts are removed, repeated or exchanged; HDF5 files
 also lose objects, or get others of another type, shape or value. A command of `vitrel` reads each, under the address and
 undefined-behaviour sanitizers. A finding is a crash, an input that takes more than 5 s of processor time, an exit code other
 than 0, 2, 3, 4 and 5, or a refusal with no message or more than three lines.
 
-{table(["files", "inputs", "findings"], rows)}
+{table(["files", "inputs", "findings", "commit"], rows)}
 """
