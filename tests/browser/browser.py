@@ -115,12 +115,15 @@ class Browser:
                                                           {"name": "prefers-reduced-motion", "value": motion}])
         self.settle()
 
-    def press(self, key, code=0, text="", modifiers=0):
-        """A key as a person presses it; `code` as in KeyboardEvent.keyCode, modifiers 8: shift."""
+    def press(self, key, code=0, text="", modifiers=0, settle=True):
+        """A key as a person presses it; `code` as in KeyboardEvent.keyCode, modifiers 8: shift. The page has handled it
+        at the end; what it draws, it has drawn only when settled.
+        """
         event = {"key": key, "windowsVirtualKeyCode": code, "modifiers": modifiers}
         self.call("Input.dispatchKeyEvent", type="keyDown", text=text, **event)
         self.call("Input.dispatchKeyEvent", type="keyUp", **event)
-        self.settle()
+        if settle:
+            self.settle()
 
     def wheel(self, x, y, delta):
         self.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=delta)

@@ -376,12 +376,12 @@ class Page(PageTest):
     def glass_readings(self, curve):
         """All (φ, τ) of a curve of the chart, read by arrow keys."""
         self.focus("#over-density .plot")
-        self.browser.press("ArrowRight", 39)
+        self.browser.press("ArrowRight", 39, settle=False)
         readout = "document.querySelector('#over-density .readout').textContent"
         for _ in range(12):
             if self.browser.evaluate(readout).startswith(curve + ":"):
                 break
-            self.browser.press("ArrowDown", 40)
+            self.browser.press("ArrowDown", 40, settle=False)
         readings = {}
         for key, code in (("ArrowLeft", 37), ("ArrowRight", 39)):
             text = ""
@@ -390,7 +390,7 @@ class Page(PageTest):
                 name, density, time = re.match(r"(.*):  φ = ([\d.]+),  ([\d.]+)", text).groups()
                 self.assertEqual(name, curve)
                 readings[float(density)] = float(time)
-                self.browser.press(key, code)
+                self.browser.press(key, code, settle=False)
         return sorted(readings.items())
 
     def test_fits_are_drawn_over_their_window_and_a_little_beyond(self):
