@@ -13,7 +13,8 @@ namespace vitrel {
 
 namespace {
 
-constexpr double max_window = 0.75;
+// Of twice the window.
+constexpr double max_width = 0.75;
 constexpr double pairs_per_particle = 1.5;
 
 // μ^D − 1 of all pairs for which that is below the window.
@@ -36,33 +37,40 @@ std::vector<double> contact_excesses(const Configuration<Dim>& configuration, do
   return excesses;
 }
 
-// The window with the target number of pairs.
+// Half the width with the target number of pairs.
 template <int Dim>
 double choose_window(const Configuration<Dim>& configuration) {
-  std::vector<double> excesses = contact_excesses(configuration, max_window);
+  std::vector<double> excesses = contact_excesses(configuration, max_width);
   const auto target =
       static_cast<std::size_t>(pairs_per_particle * static_cast<double>(configuration.size()));
-  if (excesses.size() <= target) return max_window;
+  if (excesses.size() <= target) return 0.5 * max_width;
   std::nth_element(excesses.begin(), excesses.begin() + static_cast<std::ptrdiff_t>(target),
                    excesses.end());
-  return excesses[target];
+  return 0.5 * excesses[target];
 }
 
-double intercept_weight(double y) {
-  return 16 + y * (-120 + y * (240 - 140 * y));
+// K(y)/w
+double intercept_weight(double excess, double window) {
+  const double y = excess / window;
+  return (16 + y * (-120 + y * (240 - 140 * y))) / window;
 }
 
 }  // namespace
 
 template <int Dim>
-void ContactPressure::add(const Configuration<Dim>& configuration) {
+double ContactPressure::add(const Configuration<Dim>& configuration) {
   if (window_ == 0) window_ = choose_window(configuration);
-  for (double excess : contact_excesses(configuration, window_))
-    pairs_ += intercept_weight(excess / window_) / window_;
+  double pairs = 0;
+  for (const double excess : contact_excesses(configuration, 2 * window_)) {
+    wide_pairs_ += intercept_weight(excess, 2 * window_);
+    if (excess < window_) pairs += intercept_weight(excess, window_);
+  }
+  pairs_ += pairs;
   particles_ += static_cast<double>(configuration.size());
+  return 1 + pairs / static_cast<double>(configuration.size());
 }
 
-template void ContactPressure::add(const Configuration2&);
-template void ContactPressure::add(const Configuration3&);
+template double ContactPressure::add(const Configuration2&);
+template double ContactPressure::add(const Configuration3&);
 
 }  // namespace vitrel

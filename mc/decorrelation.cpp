@@ -87,10 +87,9 @@ std::optional<Decorrelation> measure_decorrelation(const Configuration<Dim>& con
     if (!sweep(tuning + t - 1)) return std::nullopt;
     comparison.compare(copy, t);
     if (t % sweeps_per_pressure != 1) continue;
-    pressure.add(copy);
-    result.compressibility.push_back(pressure.compressibility());
-    pressure.clear();
+    result.compressibility.push_back(pressure.add(copy));
   }
+  if (!result.compressibility.empty()) result.compressibility_bias = pressure.extrapolation_error();
   return result;
 }
 

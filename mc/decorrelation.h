@@ -25,6 +25,7 @@ struct Decorrelation {
   std::vector<double> orientation;  ///< C₂(t); empty if all are round
   std::vector<double> displacement;
   std::vector<double> compressibility;  ///< a series of correlated values, evenly spaced
+  double compressibility_bias = 0;      ///< how far all may be off together (contact_pressure.h)
 
   std::uint64_t measured = 0;  ///< largest t
   /// The first t with C₂ < 1/e; none if C₂ stays above, or if all particles are round.

@@ -57,7 +57,8 @@ Quality example() {
   quality.hexatic_order = {0.3, 0.7};
   quality.smallest_gap = 1e-12;
   quality.backbone = JammedBackbone{{20, 1400, 5.83, 5.6}, 2e-3};
-  quality.decorrelation = Decorrelation{{1, 2}, {0.9, 0.8}, {0.1, 0.2}, {16.5, 16.7}, 800, 12, {}};
+  quality.decorrelation =
+      Decorrelation{{1, 2}, {0.9, 0.8}, {0.1, 0.2}, {16.5, 16.7}, 0.01, 800, 12, {}};
   return quality;
 }
 

@@ -28,6 +28,8 @@ void note_pressure(StateQuality& quality, double grown) {
   if (quality.decorrelation && grown < min_jammed_pressure) {
     quality.pressure_from = From::sampling;
     quality.reduced_pressure = block_average(quality.decorrelation->compressibility);
+    quality.reduced_pressure.error =
+        std::hypot(quality.reduced_pressure.error, quality.decorrelation->compressibility_bias);
   } else if (grown > 0) {
     quality.pressure_from = From::growth;
     quality.reduced_pressure = {grown, unknown, 0};
@@ -180,7 +182,8 @@ Json decorrelation_json(const std::optional<Decorrelation>& decorrelation) {
       {"sweeps", decorrelation->sweeps},
       {"orientation", decorrelation->orientation},
       {"displacement", decorrelation->displacement},
-      {"reduced_pressure", decorrelation->compressibility}};
+      {"reduced_pressure", decorrelation->compressibility},
+      {"reduced_pressure_bias", decorrelation->compressibility_bias}};
 }
 
 std::optional<Decorrelation> decorrelation_from(const Json& json) {
@@ -189,6 +192,7 @@ std::optional<Decorrelation> decorrelation_from(const Json& json) {
                               json.at("orientation"),
                               json.at("displacement"),
                               json.at("reduced_pressure"),
+                              json.value("reduced_pressure_bias", 0.0),
                               json.at("measured_sweeps"),
                               {},
                               {}};
