@@ -7,6 +7,7 @@
 
 #include "analysis/dynamics/bessel_j0.h"
 #include "analysis/dynamics/displacement.h"
+#include "analysis/dynamics/like_particles.h"
 #include "analysis/structure/voronoi.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -94,25 +95,25 @@ bool fits(const std::vector<bool>& is_origin, std::size_t particles, std::size_t
 
 /// The sums of one lag over all particles.
 struct LagResult {
-  LagResult(const Lag& lag, std::size_t wave_numbers)
-      : square(lag.origins),
-        overlap(lag.origins),
-        scattering(wave_numbers, CorrelationSum(lag.origins)) {}
+  LagResult(const Lag& lag, std::size_t wave_numbers, std::size_t classes)
+      : square(lag.origins, classes),
+        overlap(lag.origins, classes),
+        scattering(wave_numbers, CorrelationSum(lag.origins, classes)) {}
   CorrelationSum square, overlap;
   std::vector<CorrelationSum> scattering;
 };
 
-LagResult measure(const Recording& recording, const Lag& lag,
+LagResult measure(const Recording& recording, const LikeParticles& alike, const Lag& lag,
                   const std::vector<double>& wave_numbers, double overlap_distance,
                   const BesselJ0& bessel) {
-  LagResult result(lag, wave_numbers.size());
+  LagResult result(lag, wave_numbers.size(), alike.classes);
   std::vector<double> squares(lag.origins), values(lag.origins);
-  const auto add = [&](CorrelationSum& sum, auto&& value) {
-    std::ranges::transform(squares, values.begin(), value);
-    sum.add(0, values);
-    sum.finish_particle();
-  };
   for (std::size_t i = 0; i < recording.particles(); ++i) {
+    const auto add = [&](CorrelationSum& sum, auto&& value) {
+      std::ranges::transform(squares, values.begin(), value);
+      sum.add(0, values);
+      sum.finish_particle(alike.class_of[i]);
+    };
     for (std::size_t k = 0; k < lag.origins; ++k)
       squares[k] = recording.square(lag.from(k), lag.to(k), i);
     add(result.square, [](double square) { return square; });
@@ -137,6 +138,7 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
   axis.max_origins = std::min(axis.max_origins, max_origins);
   const std::vector<Lag> lags = time_axis_of_motion(trajectory, axis);
   const Configuration2& first = trajectory.read(0);
+  const LikeParticles alike = like_particles(first);
   const std::vector<bool> is_origin = origins_of(lags, trajectory.frames());
   if (!fits(is_origin, first.size(), options.memory)) return std::nullopt;
   CageRelative result;
@@ -150,7 +152,8 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
   std::atomic<std::size_t> done = 0;
   in_parallel(lags.size(), options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t l = begin; l < end; ++l) {
-      sums[l] = measure(recording, lags[l], result.wave_numbers, options.overlap_distance, bessel);
+      sums[l] =
+          measure(recording, alike, lags[l], result.wave_numbers, options.overlap_distance, bessel);
       const std::size_t so_far = ++done;
       if (std::this_thread::get_id() == caller) tell(report, so_far, lags.size(), "lags");
     }
@@ -162,7 +165,7 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
     result.overlap.push_back(sums[l]->overlap.estimate(lags[l], n));
     result.susceptibility.push_back(susceptibility(sums[l]->overlap, lags[l], n));
     for (std::size_t j = 0; j < result.wave_numbers.size(); ++j)
-      result.self_scattering[j].push_back(sums[l]->scattering[j].estimate(lags[l], n));
+      result.self_scattering[j].push_back(sums[l]->scattering[j].estimate_of_decay(lags[l], n));
   }
   return result;
 }

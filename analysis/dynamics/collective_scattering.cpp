@@ -152,20 +152,11 @@ Series read_modes(Trajectory<Dim>& trajectory, const std::vector<std::array<int,
   return series;
 }
 
-/// Time difference 0 before those of the time axis: from all frames if they are evenly spaced, else from
-/// the origins of the shortest lag, for unevenly sampled stretches count according to their length.
+/// Time difference 0 of all frames, before those of the time axis.
 std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOptions& axis) {
   std::vector<Lag> lags = time_axis(times, axis);
-  Lag zero{};
-  if (lags.empty() || lags.front().pairs.empty()) {
-    const std::size_t stride = (times.size() + axis.max_origins - 1) / axis.max_origins;
-    zero = {0, stride, (times.size() - 1) / stride + 1};
-  } else {
-    zero = lags.front();
-    zero.time = 0;
-    for (FramePair& pair : zero.pairs) pair.to = pair.from;
-  }
-  lags.insert(lags.begin(), std::move(zero));
+  const std::size_t stride = (times.size() + axis.max_origins - 1) / axis.max_origins;
+  lags.insert(lags.begin(), Lag{0, stride, (times.size() - 1) / stride + 1});
   return lags;
 }
 

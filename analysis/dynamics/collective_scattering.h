@@ -43,7 +43,7 @@ struct CollectiveScattering {
 /// 1. One pass over the frames gives ρ_q(t) of every wave vector; powers of exp(2πi x/L) by
 ///    multiplication, error below 1e-13 N. Threads share the frames. 16 bytes per frame and wave
 ///    vector are kept.
-/// 2. Lags and origins are those of the time axis. Errors are those of CorrelationSum with wave
+/// 2. Lags and origins are those of the time axis; F(q, 0) is of all frames. Errors are those of CorrelationSum with wave
 ///    vectors in the place of particles: their modes are independent of each other up to O(1/N). Of few wave vectors (small q) the errors
 ///    have Student's wide tails.
 ///

@@ -66,30 +66,30 @@ void CorrelationSum::add(std::size_t first_origin, std::span<const double> value
   particle_ += sum_of(values);
 }
 
-double CorrelationSum::finish_particle() {
+double CorrelationSum::finish_particle(std::size_t its_class) {
   const double mean = particle_ / static_cast<double>(per_origin_.size());
-  sum_ += mean;
-  squares_ += mean * mean;
+  classes_[its_class].add(mean);
   particle_ = 0;
   return mean;
 }
 
 void CorrelationSum::add(const CorrelationSum& other) {
   for (std::size_t k = 0; k < per_origin_.size(); ++k) per_origin_[k] += other.per_origin_[k];
-  sum_ += other.sum_;
-  squares_ += other.squares_;
+  for (std::size_t c = 0; c < classes_.size(); ++c) classes_[c].add(other.classes_[c]);
 }
 
 PointEstimate CorrelationSum::estimate(const Lag& lag, std::size_t particles) const {
-  return {over_origins(means(*this, particles), lag), spread(particles)};
+  return {over_origins(means(*this, particles), lag), independent_average(classes_).error};
+}
+
+PointEstimate CorrelationSum::estimate_of_decay(const Lag& lag, std::size_t particles) const {
+  return {slow_average(means(*this, particles), lag.shortest_block()),
+          independent_average(classes_).error};
 }
 
 PointEstimate CorrelationSum::estimate_with_plateau(const Lag& lag, std::size_t particles) const {
-  return {block_average(means(*this, particles), lag.shortest_block()), spread(particles)};
-}
-
-double CorrelationSum::spread(std::size_t particles) const {
-  return independent_average(particles, sum_, squares_).error;
+  return {block_average(means(*this, particles), lag.shortest_block()),
+          independent_average(classes_).error};
 }
 
 void MomentSum::add(std::size_t first_origin, std::span<const double> squares,
@@ -98,15 +98,15 @@ void MomentSum::add(std::size_t first_origin, std::span<const double> squares,
   quartic.add(first_origin, fourth_powers);
 }
 
-void MomentSum::finish_particle() {
-  const double mean = square.finish_particle();
-  mixed_ += mean * quartic.finish_particle();
+void MomentSum::finish_particle(std::size_t its_class) {
+  const double mean = square.finish_particle(its_class);
+  mixed_[its_class] += mean * quartic.finish_particle(its_class);
 }
 
 void MomentSum::add(const MomentSum& other) {
   square.add(other.square);
   quartic.add(other.quartic);
-  mixed_ += other.mixed_;
+  for (std::size_t c = 0; c < mixed_.size(); ++c) mixed_[c] += other.mixed_[c];
 }
 
 PointEstimate MomentSum::non_gaussian(double c, const Lag& lag, std::size_t particles) const {
@@ -119,11 +119,14 @@ PointEstimate MomentSum::non_gaussian(double c, const Lag& lag, std::size_t part
   for (std::size_t k = 0; k < line.size(); ++k) line[k] = by_m4 * line[k] + by_m2 * squares[k];
   Estimate estimate = over_origins(line, lag);
   estimate.mean = c * m4 / (m2 * m2) - 1;
-  const Estimate particles_alone =
-      independent_average(particles, by_m4 * quartic.sum_ + by_m2 * square.sum_,
-                          by_m4 * by_m4 * quartic.squares_ + 2 * by_m4 * by_m2 * mixed_ +
-                              by_m2 * by_m2 * square.squares_);
-  return {estimate, particles_alone.error};
+  std::vector<ValueSums> line_of_classes;
+  for (std::size_t k = 0; k < mixed_.size(); ++k) {
+    const ValueSums &s = square.classes_[k], &q = quartic.classes_[k];
+    line_of_classes.push_back(
+        {s.count, by_m4 * q.sum + by_m2 * s.sum,
+         by_m4 * by_m4 * q.squares + 2 * by_m4 * by_m2 * mixed_[k] + by_m2 * by_m2 * s.squares});
+  }
+  return {estimate, independent_average(line_of_classes).error};
 }
 
 Estimate susceptibility(const CorrelationSum& sum, const Lag& lag, std::size_t particles) {

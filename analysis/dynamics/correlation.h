@@ -12,7 +12,7 @@
 namespace vitrel {
 
 /// One point of a correlation. `spread` is the standard error if the particles were independent of each
-/// other, from the scatter of their own means over the origins.
+/// other, from the scatter of their own means over the origins among particles that are alike.
 struct PointEstimate {
   Estimate by_blocks;  ///< of time origins; without an error where these are too few
   double spread;
@@ -46,29 +46,34 @@ struct Correlation {
 ///    (see Correlation), as if it grew no further how many of them move together: fair from some
 ///    thirty relaxation times on. With a single origin they count as independent of each other, and
 ///    the error is too small by √χ_4 where motion is cooperative. Both include Student's factor.
+///    Particles are compared with those of their class only (LikeParticles): small ones move more
+///    than large ones in every run of these particles.
 class CorrelationSum {
  public:
-  explicit CorrelationSum(std::size_t origins) : per_origin_(origins) {}
+  explicit CorrelationSum(std::size_t origins, std::size_t classes = 1)
+      : per_origin_(origins), classes_(classes) {}
 
   /// The values of one particle at consecutive origins, the next ones of that particle.
   void add(std::size_t first_origin, std::span<const double> values);
-  /// Its mean over all origins; the next values belong to another particle.
-  double finish_particle();
+  /// Its mean over all origins; it belongs to that class. The next values are those of another particle.
+  double finish_particle(std::size_t its_class = 0);
   /// The sums of other particles at the same origins.
   void add(const CorrelationSum& other);
 
   std::span<const double> per_origin() const { return per_origin_; }
   PointEstimate estimate(const Lag& lag, std::size_t particles) const;
+  /// Of an x that decays, and is remembered for no longer than it takes to: where the time difference is too long for
+  /// blocks of four, these have twice the correlation time of the series (slow_average in blocking.h).
+  PointEstimate estimate_of_decay(const Lag& lag, std::size_t particles) const;
   /// Of x that is remembered for longer than the time difference: blocks with a plateau only.
   PointEstimate estimate_with_plateau(const Lag& lag, std::size_t particles) const;
 
  private:
   friend class MomentSum;
-  double spread(std::size_t particles) const;
 
   std::vector<double> per_origin_;  ///< summed over particles
   double particle_ = 0;             ///< sum over the origins of the present particle
-  double sum_ = 0, squares_ = 0;    ///< of the particles' means over origins
+  std::vector<ValueSums> classes_;  ///< of the particles' means over origins
 };
 
 /// Sums of the squares s and fourth powers s² of displacements, whose ratio shows how far they are
@@ -77,11 +82,12 @@ class CorrelationSum {
 ///     α = c ⟨s²⟩/⟨s⟩² − 1, c = 1/2 in the plane, 1/3 for rotation; 0 for normal distributions.
 class MomentSum {
  public:
-  explicit MomentSum(std::size_t origins) : square(origins), quartic(origins) {}
+  explicit MomentSum(std::size_t origins, std::size_t classes = 1)
+      : square(origins, classes), quartic(origins, classes), mixed_(classes) {}
 
   void add(std::size_t first_origin, std::span<const double> squares,
            std::span<const double> fourth_powers);
-  void finish_particle();
+  void finish_particle(std::size_t its_class = 0);
   void add(const MomentSum& other);
 
   /// Its error is that of the linearised ratio, α + c (x₄ − ⟨s²⟩)/⟨s⟩² − 2 c ⟨s²⟩(x₂ − ⟨s⟩)/⟨s⟩³,
@@ -93,7 +99,7 @@ class MomentSum {
   CorrelationSum square, quartic;
 
  private:
-  double mixed_ = 0;  ///< Σ (mean of s)(mean of s²) over particles
+  std::vector<double> mixed_;  ///< Σ (mean of s)(mean of s²) over the particles of every class
 };
 
 /// χ = N(⟨Q²⟩ − ⟨Q⟩²) from Q = Σ_i x_i/N at every origin: 0 if particles move alike at all times,

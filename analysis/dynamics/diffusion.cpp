@@ -15,9 +15,9 @@ namespace vitrel {
 
 namespace {
 
-constexpr double shortest_window = 9;  // longest time over shortest, of what must be straight
-constexpr double margin = 3;           // the fit begins that much later than the straight part
-constexpr double chance = 3;           // standard errors within which two slopes agree
+// Longest time of the fit over its shortest: at most, at least, and where m is not straight at once.
+constexpr double longest_window = 27, shortest_window = 3, later_window = 9;
+constexpr double chance = 3;       // standard errors within which two slopes agree
 constexpr double tolerance = 0.1;  // change of the slope that a coefficient may have as its error
 
 void check(const MeanSquareCurve& m) {
@@ -147,10 +147,20 @@ DiffusionCoefficient without(const std::string& reason) {
 /// Both halves of the shortest window have two points, which a slope needs.
 bool enough_points(const Slopes& slopes) {
   const std::vector<double>& time = slopes.curve().time;
-  if (time.size() < 4 || time.back() < shortest_window * time.front() * (1 - 1e-9)) return false;
+  if (time.size() < 4 || time.back() < later_window * time.front() * (1 - 1e-9)) return false;
   const std::size_t begin = slopes.index(time.back() / shortest_window);
   const std::size_t middle = slopes.index(std::sqrt(time[begin] * time.back()));
   return middle >= begin + 2 && time.size() >= middle + 2;
+}
+
+/// Where the window begins: m = 1, but not too near to either end.
+std::size_t first_point(const Slopes& slopes) {
+  const MeanSquareCurve& m = slopes.curve();
+  const auto moved =
+      std::find_if(m.value.begin(), m.value.end(), [](double value) { return value >= 1; });
+  const double longest = m.time.back();
+  return slopes.index(std::clamp(m.time[static_cast<std::size_t>(moved - m.value.begin())],
+                                 longest / longest_window, longest / shortest_window));
 }
 
 }  // namespace
@@ -166,20 +176,18 @@ DiffusionCoefficient diffusion_coefficient(const MeanSquareCurve& curve, int dim
                                m.value.back(), m.time.back()));
 
   const double longest = m.time.back();
-  std::size_t begin = slopes.index(longest / shortest_window);
-  const Halves shortest = halves(slopes, begin);
+  std::size_t from = first_point(slopes);
+  if (!straight(halves(slopes, from))) from = std::max(from, slopes.index(longest / later_window));
   double change = 0;
-  if (straight(shortest)) {
-    while (begin > 0 && straight(halves(slopes, begin - 1))) --begin;
-  } else {
-    change = std::abs(shortest.change);
-    if (!(change <= tolerance * shortest.later))
+  if (const Halves last = halves(slopes, from); !straight(last)) {
+    change = std::abs(last.change);
+    if (!(change <= tolerance * last.later))
       return without(
           fmt::format("not diffusive yet: the slope still changes by {:.0f} % between the "
                       "halves of [{:.4g}, {:.4g}]",
-                      100 * shortest.change / shortest.later, m.time[begin], longest));
+                      100 * last.change / last.later, m.time[from], longest));
+    from = slopes.index(longest / shortest_window);
   }
-  const std::size_t from = slopes.index(std::min(margin * m.time[begin], longest / margin));
   const Eigen::VectorXd c = slopes.coefficients(from, m.time.size());
   const double scale = 1.0 / (2 * dimension);
   return {scale * slopes.value(c), scale * std::max(slopes.error(c), change), m.time[from], longest,

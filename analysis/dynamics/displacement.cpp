@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "analysis/dynamics/lag_sums.h"
+#include "analysis/dynamics/like_particles.h"
 #include "analysis/dynamics/tracks.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -24,8 +25,9 @@ struct Members {
   std::size_t particles = 0, rotors = 0;
   std::vector<LagSums<Dim>> sums = {};  ///< one per lag
 
-  void make_room(const std::vector<Lag>& lags, const TrackQuantities<Dim>& quantities) {
-    for (const Lag& lag : lags) sums.emplace_back(lag, quantities, rotors > 0);
+  void make_room(const std::vector<Lag>& lags, const TrackQuantities<Dim>& quantities,
+                 std::size_t classes) {
+    for (const Lag& lag : lags) sums.emplace_back(lag, quantities, rotors > 0, classes);
   }
 };
 
@@ -44,13 +46,13 @@ std::vector<Members<Dim>> species_of(const Configuration<Dim>& first) {
 /// Sums of all particles from those of the species.
 template <int Dim>
 Members<Dim> together(const std::vector<Members<Dim>>& species, const std::vector<Lag>& lags,
-                      const TrackQuantities<Dim>& quantities) {
+                      const TrackQuantities<Dim>& quantities, std::size_t classes) {
   Members<Dim> all{"all"};
   for (const Members<Dim>& members : species) {
     all.particles += members.particles;
     all.rotors += members.rotors;
   }
-  all.make_room(lags, quantities);
+  all.make_room(lags, quantities, classes);
   for (const Members<Dim>& members : species)
     for (std::size_t l = 0; l < members.sums.size(); ++l) all.sums[l].add(members.sums[l]);
   return all;
@@ -62,11 +64,12 @@ class Pass {
  public:
   Pass(Trajectory<Dim>& trajectory, const DisplacementOptions& options,
        const std::vector<Lag>& lags, const TrackQuantities<Dim>& quantities,
-       std::vector<Members<Dim>>& species, const ProgressReport& report)
+       const LikeParticles& alike, std::vector<Members<Dim>>& species, const ProgressReport& report)
       : trajectory_(trajectory),
         threads_(options.threads),
         lags_(lags),
         quantities_(quantities),
+        alike_(alike),
         first_(trajectory.read(0)),
         species_(species),
         report_(report) {}
@@ -107,7 +110,8 @@ class Pass {
     in_parallel(lags_.size(), threads_, [&](std::size_t from, std::size_t to) {
       for (std::size_t l = from; l < to; ++l)
         for (std::size_t p = 0; p < paths.size(); ++p)
-          species_[static_cast<std::size_t>(first_.species[begin + p])].sums[l].add(*paths[p]);
+          species_[static_cast<std::size_t>(first_.species[begin + p])].sums[l].add(
+              *paths[p], alike_.class_of[begin + p]);
     });
   }
 
@@ -115,6 +119,7 @@ class Pass {
   int threads_;
   const std::vector<Lag>& lags_;
   const TrackQuantities<Dim>& quantities_;
+  const LikeParticles& alike_;
   const Configuration<Dim> first_;
   std::vector<Members<Dim>>& species_;
   const ProgressReport& report_;
@@ -132,7 +137,7 @@ void evaluate_rotation(DisplacementGroup& group, const LagSums<Dim>& all_sums, c
   group.non_gaussian_rotation.push_back(
       sums.turn.non_gaussian(LagSums<Dim>::normal_rotation, lag, n));
   for (std::size_t j = 0; j < sums.orientation.size(); ++j)
-    group.orientation[j].push_back(sums.orientation[j].estimate(lag, n));
+    group.orientation[j].push_back(sums.orientation[j].estimate_of_decay(lag, n));
 }
 
 template <int Dim>
@@ -152,7 +157,7 @@ DisplacementGroup evaluate(const Members<Dim>& members, const std::vector<Lag>& 
     group.non_gaussian.push_back(
         sums.translation().non_gaussian(LagSums<Dim>::normal_translation, lags[l], n));
     for (std::size_t j = 0; j < group.self_scattering.size(); ++j)
-      group.self_scattering[j].push_back(sums.scattering()[j].estimate(lags[l], n));
+      group.self_scattering[j].push_back(sums.scattering()[j].estimate_of_decay(lags[l], n));
     if (group.rotors > 0) evaluate_rotation(group, sums, lags[l]);
   }
   return group;
@@ -184,10 +189,11 @@ Displacements displacements(Trajectory<Dim>& trajectory, const DisplacementOptio
                                         options.overlap_distance,
                                         {}};
   std::vector<Members<Dim>> species = species_of(first);
+  const LikeParticles alike = like_particles(first);
   for (Members<Dim>& members : species)
-    if (members.particles > 0) members.make_room(lags, quantities);
+    if (members.particles > 0) members.make_room(lags, quantities, alike.classes);
   const std::size_t batch = options.memory / track_bytes<Dim>(times.size());
-  Pass<Dim> pass(trajectory, options, lags, quantities, species, report);
+  Pass<Dim> pass(trajectory, options, lags, quantities, alike, species, report);
   pass.run(std::max<std::size_t>(1, batch));
 
   Displacements result;
@@ -196,7 +202,7 @@ Displacements displacements(Trajectory<Dim>& trajectory, const DisplacementOptio
   result.orders = quantities.orders;
   result.axes = quantities.axes;
   result.overlap_distance = quantities.overlap_distance;
-  const Members<Dim> all = together(species, lags, quantities);
+  const Members<Dim> all = together(species, lags, quantities, alike.classes);
   for (std::size_t l = 0; l < lags.size(); ++l) {
     result.lag.push_back(lags[l].time);
     result.origins.push_back(lags[l].origins);

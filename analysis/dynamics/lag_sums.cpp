@@ -87,21 +87,22 @@ class LagSums<Dim>::Part {
 };
 
 template <int Dim>
-LagSums<Dim>::LagSums(const Lag& lag, const TrackQuantities<Dim>& quantities, bool rotors)
+LagSums<Dim>::LagSums(const Lag& lag, const TrackQuantities<Dim>& quantities, bool rotors,
+                      std::size_t classes)
     : lag_(&lag),
       quantities_(&quantities),
-      translation_(lag.origins),
-      overlap_(lag.origins),
-      scattering_(quantities.wave_numbers.size(), CorrelationSum(lag.origins)) {
-  const CorrelationSum empty(lag.origins);
+      translation_(lag.origins, classes),
+      overlap_(lag.origins, classes),
+      scattering_(quantities.wave_numbers.size(), CorrelationSum(lag.origins, classes)) {
+  const CorrelationSum empty(lag.origins, classes);
   if (rotors)
     rotation_ =
-        Rotation{empty, empty, MomentSum(lag.origins),
+        Rotation{empty, empty, MomentSum(lag.origins, classes),
                  std::vector<CorrelationSum>(quantities.axes * quantities.orders.size(), empty)};
 }
 
 template <int Dim>
-void LagSums<Dim>::add(const Path<Dim>& path) {
+void LagSums<Dim>::add(const Path<Dim>& path, std::size_t its_class) {
   for (std::size_t begin = 0; begin < lag_->origins; begin += chunk) {
     const Part part(*lag_, begin);
     add_translation(path, part);
@@ -109,7 +110,7 @@ void LagSums<Dim>::add(const Path<Dim>& path) {
     add_rotation(path, part);
     add_orientation(path, part);
   }
-  finish_particle(path.is_rotor());
+  finish_particle(path.is_rotor(), its_class);
 }
 
 template <int Dim>
@@ -175,15 +176,15 @@ void LagSums<Dim>::add_orientation(const Path<Dim>& path, const Part& part) {
 }
 
 template <int Dim>
-void LagSums<Dim>::finish_particle(bool rotor) {
-  translation_.finish_particle();
-  overlap_.finish_particle();
-  for (CorrelationSum& sum : scattering_) sum.finish_particle();
+void LagSums<Dim>::finish_particle(bool rotor, std::size_t its_class) {
+  translation_.finish_particle(its_class);
+  overlap_.finish_particle(its_class);
+  for (CorrelationSum& sum : scattering_) sum.finish_particle(its_class);
   if (!rotor) return;
-  rotation_->parallel.finish_particle();
-  rotation_->perpendicular.finish_particle();
-  rotation_->turn.finish_particle();
-  for (CorrelationSum& sum : rotation_->orientation) sum.finish_particle();
+  rotation_->parallel.finish_particle(its_class);
+  rotation_->perpendicular.finish_particle(its_class);
+  rotation_->turn.finish_particle(its_class);
+  for (CorrelationSum& sum : rotation_->orientation) sum.finish_particle(its_class);
 }
 
 template <int Dim>

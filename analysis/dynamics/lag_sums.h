@@ -20,14 +20,14 @@ struct TrackQuantities {
   DirectionAverage<Dim> direction_average;
 };
 
-/// Sums over particles that are not told apart.
+/// Sums over particles that are told apart by their class (LikeParticles) for the errors only.
 template <int Dim>
 class LagSums {
  public:
   /// `rotors`: whether there may be any among the particles. `lag` and `quantities` must outlive the
   /// sums.
-  LagSums(const Lag& lag, const TrackQuantities<Dim>& quantities, bool rotors);
-  void add(const Path<Dim>& path);
+  LagSums(const Lag& lag, const TrackQuantities<Dim>& quantities, bool rotors, std::size_t classes);
+  void add(const Path<Dim>& path, std::size_t its_class);
   void add(const LagSums& other);
 
   struct Rotation {
@@ -49,7 +49,7 @@ class LagSums {
   void add_translation(const Path<Dim>& path, const Part& part);
   void add_rotation(const Path<Dim>& path, const Part& part);
   void add_orientation(const Path<Dim>& path, const Part& part);
-  void finish_particle(bool rotor);
+  void finish_particle(bool rotor, std::size_t its_class);
 
   const Lag* lag_;
   const TrackQuantities<Dim>* quantities_;

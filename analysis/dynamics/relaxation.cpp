@@ -41,7 +41,8 @@ bool returns(const Decay& c, std::size_t begin) {
 struct Line {
   double time, value;  ///< geometric and arithmetic mean of the points
   double slope;        ///< per unit of ln t
-  double error;        ///< mean error of the points
+  double error;        ///< the mean error of the points
+  double error_slope;  ///< that of the line through the errors
 };
 
 Line straight_line(const Decay& c, std::size_t begin, std::size_t end) {
@@ -53,13 +54,14 @@ Line straight_line(const Decay& c, std::size_t begin, std::size_t end) {
   }
   const double n = static_cast<double>(end - begin);
   x /= n, y /= n;
-  double xx = 0, xy = 0;
+  double xx = 0, xy = 0, xe = 0;
   for (std::size_t k = begin; k < end; ++k) {
     const double dx = std::log(c.time[k]) - x;
     xx += dx * dx;
     xy += dx * (c.value[k] - y);
+    xe += dx * (c.error[k] - error / n);
   }
-  return {std::exp(x), y, xy / xx, error / n};
+  return {std::exp(x), y, xy / xx, error / n, xe / xx};
 }
 
 }  // namespace
@@ -88,7 +90,8 @@ RelaxationTime relaxation_time(const Decay& c) {
   const double time = line.time * std::exp(shift);
   if (!(time > c.time[begin] / reach && time < c.time[end - 1] * reach))
     return without("too noisy where it crosses 1/e");
-  return {time, time * line.error / -line.slope, unknown, unknown, ""};
+  const double error = std::abs(line.error + line.error_slope * shift);
+  return {time, time * error / -line.slope, unknown, unknown, ""};
 }
 
 Decay connected_part(const Decay& correlation, const Estimate& plateau) {

@@ -29,8 +29,8 @@ struct RelaxationTime {
 ///    the two points on both sides of 1/e if these are farther. exp(−(t/τ)^β) has its point of
 ///    inflection in ln t at τ, for every β, so the line is wrong in third order only: by less than
 ///    0.2 % of τ for β ≤ 1. τ is where the line is 1/e.
-/// 3. The error is the mean error of these points over the slope of the line: neighbouring times
-///    share their noise, so more points do not make it smaller.
+/// 3. The error is that of a line through the errors of these points, at τ, over the slope of the line:
+///    neighbouring times share their noise, so more points do not make it smaller.
 ///
 /// No value where the correlation does not fall that far within its times, where it is below 1/e
 /// from the first time on, or where it returns above 1/e by more than three errors. Throws UserError

@@ -14,7 +14,9 @@ namespace vitrel {
 
 namespace {
 
-constexpr double rounding = 1e-9;  // of a mean: below it nothing fluctuates
+constexpr double rounding = 1e-9;           // of a mean: below it nothing fluctuates
+constexpr double degrees_of_an_error = 10;  // of freedom, behind the error of a run
+constexpr double excessive = 0.01;          // probability of a scatter that is not by chance
 
 /// Variance of the mean of values taken as independent.
 double squared_error(double count, double squares) {
@@ -38,17 +40,12 @@ Estimate block_average(std::span<const double> series, double shortest_block) {
 Estimate known_block_average(std::span<const double> series, std::size_t block,
                              double correlation) {
   const std::size_t blocks = series.size() / block;
-  double sum = 0, squares = 0;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const double mean = mean_of(series.subspan(b * block, block));
-    sum += mean;
-    squares += mean * mean;
-  }
+  ValueSums sums;
+  for (std::size_t b = 0; b < blocks; ++b) sums.add(mean_of(series.subspan(b * block, block)));
   if (blocks < min_blocks) return {mean_of(series), unknown, 0};
   const double ratio = static_cast<double>(block) / correlation;
   const double seen = correlation > 0 ? 1 + std::expm1(-ratio) / ratio : 1;
-  return {mean_of(series), independent_average(blocks, sum, squares).error / std::sqrt(seen),
-          blocks};
+  return {mean_of(series), independent_average({&sums, 1}).error / std::sqrt(seen), blocks};
 }
 
 std::size_t correlation_steps(std::span<const double> series) {
@@ -70,8 +67,8 @@ std::size_t correlation_steps(std::span<const double> series) {
   return lag;
 }
 
-Estimate slow_average(std::span<const double> series) {
-  const Estimate plateau = block_average(series);
+Estimate slow_average(std::span<const double> series, double shortest_block) {
+  const Estimate plateau = block_average(series, shortest_block);
   if (plateau.blocks > 0) return plateau;
   const std::size_t steps = correlation_steps(series);
   return known_block_average(series, std::max<std::size_t>(1, 2 * steps),
@@ -137,23 +134,57 @@ std::span<const double> BlockSums::restore(std::span<const double> numbers) {
   return numbers;
 }
 
-Estimate independent_average(std::size_t count, double sum, double sum_of_squares) {
-  if (count == 0) return {unknown, unknown, 0};
-  const double n = static_cast<double>(count);
-  const double mean = sum / n;
-  if (count == 1) return {mean, unknown, 0};
-  // Rounding can make the variance of equal values a little negative.
-  const double variance = std::max(0.0, (sum_of_squares - n * mean * mean) / (n - 1));
-  return {mean, std::sqrt(variance / n) * student_factor(count - 1), count};
+void ValueSums::add(double value) {
+  add({1, value, value * value});
 }
 
-ConfidenceInterval confidence_interval(std::span<const double> values, double level) {
+void ValueSums::add(const ValueSums& other) {
+  count += other.count;
+  sum += other.sum;
+  squares += other.squares;
+}
+
+Estimate independent_average(std::span<const ValueSums> classes) {
+  ValueSums all;
+  double squares = 0, degrees = 0;
+  for (const ValueSums& one : classes) {
+    if (one.count == 0) continue;
+    all.add(one);
+    // Rounding can make the variance of equal values a little negative.
+    squares += std::max(0.0, one.squares - one.sum * one.sum / one.count);
+    degrees += one.count - 1;
+  }
+  if (all.count == 0) return {unknown, unknown, 0};
+  const double mean = all.sum / all.count;
+  if (degrees == 0) return {mean, unknown, 0};
+  return {
+      mean,
+      std::sqrt(squares / degrees / all.count) * student_factor(static_cast<std::size_t>(degrees)),
+      static_cast<std::size_t>(all.count)};
+}
+
+double MeanOfRuns::half_width(double level) const {
+  if (std::isnan(squared_error)) return unknown;
+  return gsl_cdf_tdist_Pinv(0.5 * (1 + level), degrees_of_freedom) * std::sqrt(squared_error);
+}
+
+MeanOfRuns mean_of_runs(std::span<const double> values, std::span<const double> errors) {
   const double mean = mean_of(values), n = static_cast<double>(values.size());
-  if (values.size() < 2) return {mean, unknown};
+  if (values.size() < 2) return {mean, unknown, false, unknown, 0};
   double squares = 0;
   for (const double value : values) squares += (value - mean) * (value - mean);
-  const double quantile = gsl_cdf_tdist_Pinv(0.5 * (1 + level), n - 1);
-  return {mean, quantile * std::sqrt(squares / (n - 1) / n)};
+  const MeanOfRuns by_scatter{mean, unknown, false, squares / (n - 1) / n, n - 1};
+  if (errors.empty() || !std::ranges::all_of(errors, [](double e) { return e > 0; }))
+    return by_scatter;
+
+  double square_error = 0;
+  for (const double error : errors) square_error += error * error / n;
+  const double ratio = squares / (n - 1) / square_error;
+  const double within = degrees_of_an_error * n;
+  if (gsl_cdf_fdist_Q(ratio, n - 1, within) < excessive)
+    return {mean, std::sqrt(ratio), true, by_scatter.squared_error, n - 1};
+  const double degrees = n - 1 + within;
+  return {mean, std::sqrt(ratio), false, (squares + within * square_error) / degrees / n, degrees};
 }
 
 double student_factor(std::size_t degrees_of_freedom) {

@@ -52,7 +52,7 @@ std::size_t correlation_steps(std::span<const double> series);
 /// Of a series that may be slow: by blocking, or if that sees no plateau, from blocks of twice the
 /// correlation time of the series itself, for which sixteen correlation times are enough. The error
 /// covers the truth in 64 % of the cases then, instead of 68 (measured).
-Estimate slow_average(std::span<const double> series);
+Estimate slow_average(std::span<const double> series, double shortest_block = 1);
 
 /// The same for a series that comes value by value and is not kept: for every block length it holds
 /// number, mean and variance of the blocks so far, updated as they come [welford1962]. Memory
@@ -82,17 +82,42 @@ class BlockSums {
 /// The fewest blocks on which an error may rest.
 inline constexpr std::size_t min_blocks = 8;
 
-/// Mean and standard error of independent values, from their number, sum and sum of squares; the
-/// error is NaN for fewer than two values.
-Estimate independent_average(std::size_t count, double sum, double sum_of_squares);
+/// Number, sum and sum of squares of values.
+struct ValueSums {
+  double count = 0, sum = 0, squares = 0;
 
-/// The mean of n ≥ 2 independent values and the half-width t s/√n of the interval that covers the true one with
-/// probability `level`: s² is their variance, t Student's quantile for n − 1 degrees of freedom, exact for
-/// normal values. NaN for fewer values.
-struct ConfidenceInterval {
-  double mean, half_width;
+  void add(double value);
+  void add(const ValueSums& other);
 };
-ConfidenceInterval confidence_interval(std::span<const double> values, double level = 0.95);
+
+/// Mean and standard error of n independent values in K classes, such as particles of about the same size:
+///
+///     error² = Σ (value − mean of its class)²/((n − K) n),
+///
+/// so that differences between the classes, which are no matter of chance, do not count. NaN as error for n ≤ K.
+Estimate independent_average(std::span<const ValueSums> classes);
+
+/// The mean of n independent values, such as those of several seeds, that may have standard errors of their own.
+///
+/// 1. Without errors the variance of a value is that of the values, s², with n − 1 degrees of freedom.
+/// 2. The mean square e² of the errors estimates the same variance if the values differ by chance only. An error
+///    counts as known from ten degrees of freedom, so that together ((n − 1) s² + 10 n e²)/(11 n − 1) has 11 n − 1.
+/// 3. If s²/e² is larger than F's distribution allows with a probability of 1 %, the values differ by more
+///    than they state: the scatter is excessive, and 1 holds.
+struct MeanOfRuns {
+  double mean;
+  double
+      scatter;  ///< s/e; NaN for fewer than two values, or if not all errors are known and above 0
+  bool is_excessive;
+  double squared_error;  ///< of the mean; NaN for fewer than two values
+  double degrees_of_freedom;
+
+  /// Half-width of the interval that covers the true mean with this probability: Student's quantile times the error,
+  /// exact for normal values.
+  double half_width(double level) const;
+};
+/// As many errors as values, or none.
+MeanOfRuns mean_of_runs(std::span<const double> values, std::span<const double> errors = {});
 
 /// Half-width of the central 68.27 % interval of Student's distribution, in units of the standard
 /// error: 1 + 1/(2ν) + 1/(4ν²) + 1/(16ν³) − …, the Cornish–Fisher expansion at one standard

@@ -152,33 +152,101 @@ TEST(Blocking, StudentFactor) {
 }
 
 TEST(IndependentAverage, ByHand) {
-  const Estimate estimate = independent_average(4, 1 + 2 + 3 + 6, 1 + 4 + 9 + 36);
+  const ValueSums four{4, 1 + 2 + 3 + 6, 1 + 4 + 9 + 36}, one{1, 2, 4};
+  const Estimate estimate = independent_average({&four, 1});
   EXPECT_DOUBLE_EQ(estimate.mean, 3);
   EXPECT_NEAR(estimate.error, std::sqrt(14.0 / 3 / 4) * student_factor(3), 1e-15);
-  EXPECT_TRUE(std::isnan(independent_average(1, 2, 4).error));
+  EXPECT_TRUE(std::isnan(independent_average({&one, 1}).error));
+}
+
+// Of 1 and 3, and of 11 and 13: within the classes the variance is 2.
+TEST(IndependentAverage, OfClassesHasNoDifferencesBetweenThem) {
+  std::vector<ValueSums> classes(3);
+  for (const double value : {1, 3}) classes[0].add(value);
+  for (const double value : {11, 13}) classes[2].add(value);
+  const Estimate estimate = independent_average(classes);
+  EXPECT_DOUBLE_EQ(estimate.mean, 7);
+  EXPECT_NEAR(estimate.error, std::sqrt(2.0 / 4) * student_factor(2), 1e-15);
+  classes[2] = {};
+  classes[1].add(12);
+  EXPECT_DOUBLE_EQ(independent_average(classes).error, std::sqrt(2.0 / 3) * student_factor(1));
+  EXPECT_TRUE(std::isnan(independent_average(std::span(classes).subspan(1)).error));
 }
 
 // Student's 97.5 % quantile is 2.2622 for 9 degrees of freedom, 12.706 for one (tables).
-TEST(ConfidenceIntervalOfTheMean, ByHand) {
+TEST(MeanOfRuns, ByHand) {
   const std::vector<double> two = {1, 3};
-  EXPECT_DOUBLE_EQ(confidence_interval(two).mean, 2);
-  EXPECT_NEAR(confidence_interval(two).half_width, 12.706, 1e-3);
+  EXPECT_DOUBLE_EQ(mean_of_runs(two).mean, 2);
+  EXPECT_NEAR(mean_of_runs(two).half_width(0.95), 12.706, 1e-3);
   const std::vector<double> ten = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
-  EXPECT_NEAR(confidence_interval(ten).half_width, 2.26216 * std::sqrt(55.0 / 6 / 10), 1e-5);
-  EXPECT_TRUE(std::isnan(confidence_interval(std::vector<double>{1}).half_width));
+  EXPECT_NEAR(mean_of_runs(ten).half_width(0.95), 2.26216 * std::sqrt(55.0 / 6 / 10), 1e-5);
+  EXPECT_TRUE(std::isnan(mean_of_runs(std::vector<double>{1}).half_width(0.95)));
 }
 
 // 4000 samples of five: the share covered is 0.95 with a standard error of 0.0034; four of them.
-TEST(ConfidenceIntervalOfTheMean, CoversTheTruthAsOftenAsItSays) {
+TEST(MeanOfRuns, CoversTheTruthAsOftenAsItSays) {
   Stream draw(4, Purpose::tests);
   int covered = 0;
   for (int sample = 0; sample < 4000; ++sample) {
     std::vector<double> values(5);
     for (double& value : values) value = 3 + 2 * draw.normal();
-    const ConfidenceInterval interval = confidence_interval(values);
-    covered += std::abs(interval.mean - 3) < interval.half_width;
+    const MeanOfRuns mean = mean_of_runs(values);
+    covered += std::abs(mean.mean - 3) < mean.half_width(0.95);
   }
   EXPECT_NEAR(covered / 4000.0, 0.95, 4 * 0.0034);
+}
+
+// Of two values 6 apart, s² = 18; with errors of 5 the variance is (18 + 20 · 25)/21.
+TEST(MeanOfRuns, ErrorsAndScatterBothCount) {
+  const std::vector<double> values = {29, 35}, errors = {5, 5};
+  const MeanOfRuns mean = mean_of_runs(values, errors);
+  EXPECT_EQ(mean.mean, 32);
+  EXPECT_DOUBLE_EQ(mean.scatter, std::sqrt(18.0 / 25));
+  EXPECT_FALSE(mean.is_excessive);
+  EXPECT_DOUBLE_EQ(mean.squared_error, 518.0 / 21 / 2);
+  EXPECT_EQ(mean.degrees_of_freedom, 21);
+  const std::vector<double> one_unknown = {5, std::nan("")};
+  EXPECT_EQ(mean_of_runs(values, one_unknown).squared_error, 9);
+  EXPECT_TRUE(std::isnan(mean_of_runs(values, one_unknown).scatter));
+}
+
+// The upper 1 % point of F for 1 and 20 degrees of freedom is 8.0960 (tables).
+TEST(MeanOfRuns, SaysThatTheScatterIsExcessive) {
+  const std::vector<double> errors = {1, 1};
+  const double limit = std::sqrt(2 * 8.0960);
+  EXPECT_FALSE(mean_of_runs(std::vector{0.0, 0.999 * limit}, errors).is_excessive);
+  const MeanOfRuns mean = mean_of_runs(std::vector{0.0, 1.001 * limit}, errors);
+  EXPECT_TRUE(mean.is_excessive);
+  EXPECT_EQ(mean.degrees_of_freedom, 1);
+  EXPECT_DOUBLE_EQ(mean.half_width(0.95),
+                   mean_of_runs(std::vector{0.0, 1.001 * limit}).half_width(0.95));
+}
+
+/// 4000 times the mean of two runs, with errors from ten blocks each; the values have this variance beside that of the
+/// blocks, of which the errors do not know. The share of intervals that cover.
+double coverage_of_two(double beside) {
+  Stream draw(5, Purpose::tests);
+  int covered = 0;
+  for (int sample = 0; sample < 4000; ++sample) {
+    std::vector<double> values, errors;
+    for (int run = 0; run < 2; ++run) {
+      ValueSums blocks;
+      for (int b = 0; b < 10; ++b) blocks.add(draw.normal());
+      const Estimate estimate = independent_average({&blocks, 1});
+      values.push_back(estimate.mean + std::sqrt(beside) * draw.normal());
+      errors.push_back(estimate.error);
+    }
+    const MeanOfRuns mean = mean_of_runs(values, errors);
+    covered += std::abs(mean.mean) < mean.half_width(0.6827);
+  }
+  return covered / 4000.0;
+}
+
+// Binomial error 0.0074, four of them; Student's factors are in the errors already, which makes the intervals of honest
+// errors 5 % wider: 0.70 instead of 0.683. With a scatter ten times as large as the errors the seeds decide.
+TEST(MeanOfRuns, OfTwoCoversTheTruth) {
+  EXPECT_NEAR(coverage_of_two(0), 0.70, 0.03);
+  EXPECT_NEAR(coverage_of_two(10), 0.683, 0.03);
 }
 
 }  // namespace

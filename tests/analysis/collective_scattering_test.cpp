@@ -162,7 +162,7 @@ TEST(CollectiveScattering, ResultDoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one.scattering[0].value, two.scattering[0].value);
 }
 
-// Too few origins for blocks: the error is the spread of the wave vectors. Time 0 has the origins of time 1.
+// Too few origins for blocks: the error is the spread of the wave vectors. Time 0 is that of all frames.
 TEST(CollectiveScattering, LogarithmicTimesUseAllPairsOfEqualDifference) {
   Configuration2 configuration = ideal_gas(50, 4);
   std::vector<Configuration2> frames;
@@ -173,7 +173,7 @@ TEST(CollectiveScattering, LogarithmicTimesUseAllPairsOfEqualDifference) {
   MemoryTrajectory2 trajectory(std::move(frames));
   const auto found = collective_scattering(trajectory, std::vector<double>{3.0});
   EXPECT_EQ(found.lag, (std::vector<double>{0, 1, 2, 4}));
-  EXPECT_EQ(found.origins, (std::vector<std::size_t>{2, 2, 2, 1}));
+  EXPECT_EQ(found.origins, (std::vector<std::size_t>{4, 2, 2, 1}));
   EXPECT_EQ(found.scattering[0].value[3], found.scattering[0].value[0]) << "nothing has moved";
   EXPECT_GT(found.scattering[0].error[0], 0);
   EXPECT_EQ(found.scattering[0].blocks[0], 0u);

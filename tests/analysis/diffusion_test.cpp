@@ -44,7 +44,7 @@ MeanSquareCurve walkers(std::size_t n, std::size_t frames, double cage, bool sin
   MeanSquareCurve curve;
   curve.time = geometric_lags(single_origin ? frames - 1 : frames / 2);
   curve.duration = single_origin ? 0 : static_cast<double>(frames - 1);
-  std::vector<double> sum(curve.time.size()), square(curve.time.size());
+  std::vector<ValueSums> sums(curve.time.size());
   for (std::size_t i = 0; i < n; ++i) {
     const std::vector<double> path = walk(frames, 0.5, cage, draw);
     for (std::size_t k = 0; k < curve.time.size(); ++k) {
@@ -54,12 +54,11 @@ MeanSquareCurve walkers(std::size_t n, std::size_t frames, double cage, bool sin
       for (std::size_t a = 0; a < origins; ++a)
         mean += (path[a + lag] - path[a]) * (path[a + lag] - path[a]);
       mean /= static_cast<double>(origins);
-      sum[k] += mean;
-      square[k] += mean * mean;
+      sums[k].add(mean);
     }
   }
   for (std::size_t k = 0; k < curve.time.size(); ++k) {
-    const Estimate estimate = independent_average(n, sum[k], square[k]);
+    const Estimate estimate = independent_average({&sums[k], 1});
     curve.value.push_back(estimate.mean);
     curve.error.push_back(estimate.error);
   }
@@ -115,13 +114,13 @@ MeanSquareCurve curve_of(int last, double relative_error, M&& m) {
   return curve;
 }
 
-// m = 4 D (t − τ(1 − e^{−t/τ})) + c with D = 0.5, τ = 2: constants drop out.
+// m = 4 D (t − τ(1 − e^{−t/τ})) + c with D = 0.5, τ = 2: constants drop out. It is above 1 from the first time on, and
+// not straight from 90/27 on.
 TEST(DiffusionCoefficient, IgnoresShortTimesAndSaysWhereItLooked) {
   const DiffusionCoefficient d = diffusion_coefficient(
       curve_of(90, 1e-4, [](double t) { return 2 * (t - 2 * (1 - std::exp(-t / 2))) + 3; }), 2);
   EXPECT_NEAR(d.value, 0.5, 1e-3);
-  EXPECT_GE(d.from, 10);
-  EXPECT_LE(d.from, 30);
+  EXPECT_EQ(d.from, 10);
   EXPECT_EQ(d.to, 90);
   EXPECT_EQ(d.reason, "");
 }
@@ -138,6 +137,17 @@ TEST(DiffusionCoefficient, SlowChangeOfTheSlopeIsTheError) {
   EXPECT_LT(d.value, slope(89, 90));
   EXPECT_NEAR(d.error, slope(30, 90) - slope(10, 30), 0.01);
   EXPECT_EQ(d.from, 30);
+}
+
+// Straight from the start: the window begins at T/27, at m = 1 or at T/3, whatever chance does to the points.
+TEST(DiffusionCoefficient, TheWindowBeginsWhereParticlesHaveMovedByOne) {
+  const auto from = [](double last) {
+    return diffusion_coefficient(curve_of(81, 0.1, [&](double t) { return last * t / 81; }), 1)
+        .from;
+  };
+  EXPECT_EQ(from(100), 3);
+  EXPECT_EQ(from(9), 9);
+  EXPECT_EQ(from(2), 27);
 }
 
 TEST(DiffusionCoefficient, MotionThatIsNotDiffusiveHasNoneAndSaysWhy) {

@@ -57,18 +57,17 @@ TEST(RelaxationTime, BetweenTwoPointsIsInterpolatedInLogarithmicTime) {
 Decay rotors(int n, std::uint64_t seed) {
   Stream draw(seed, Purpose::tests);
   const int frames = 80;
-  std::vector<double> sum(frames), square(frames);
+  std::vector<ValueSums> sums(frames);
   for (int i = 0; i < n; ++i) {
     double angle = 0;
     for (int k = 0; k < frames; ++k) {
       angle += std::sqrt(0.1) * draw.normal();
-      sum[k] += std::cos(angle);
-      square[k] += std::cos(angle) * std::cos(angle);
+      sums[k].add(std::cos(angle));
     }
   }
   Decay result;
   for (int k = 0; k < frames; ++k) {
-    const Estimate estimate = independent_average(n, sum[k], square[k]);
+    const Estimate estimate = independent_average({&sums[k], 1});
     result.time.push_back(k + 1);
     result.value.push_back(estimate.mean);
     result.error.push_back(estimate.error);

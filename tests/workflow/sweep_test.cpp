@@ -191,7 +191,7 @@ TEST(Sweep, ProgressIsTheShareOfTheSimulatedTime) {
 }
 
 // Of two values d apart, the standard error of the mean is d/2; Student's quantiles for one degree of freedom are
-// tan(πp/2).
+// tan(πp/2). These two differ by more than their errors explain, and so their scatter alone counts.
 TEST(SeedAverages, AreMeansWithIntervals) {
   const auto job = [](const char* density, const char* seed, double z) {
     return JobResult{{{"system.packing_fraction", density}, {"system.seed", seed}},
@@ -206,6 +206,8 @@ TEST(SeedAverages, AreMeansWithIntervals) {
   EXPECT_EQ(averages[0].find("z").mean, 2.5);
   EXPECT_NEAR(averages[0].find("z").error, 0.5 * std::tan(0.6827 * std::numbers::pi / 2), 1e-9);
   EXPECT_NEAR(averages[0].find("z").half_width, 0.5 * std::tan(0.95 * std::numbers::pi / 2), 1e-9);
+  EXPECT_TRUE(averages[0].find("z").is_excessive);
+  EXPECT_NEAR(averages[0].find("z").scatter, std::sqrt(0.5) / 0.1, 1e-12);
   EXPECT_EQ(averages[0].find("particles").half_width, 0);
   EXPECT_EQ(averages[1].seeds, 1u);
   EXPECT_EQ(averages[1].find("z").mean, 7);

@@ -15,6 +15,7 @@ namespace vitrel {
 namespace {
 
 constexpr const char* seed_key = "system.seed";
+constexpr const char* error_suffix = "_error";
 constexpr double one_sigma = 0.6827;
 
 /// Jobs with the same values but for the seed.
@@ -37,15 +38,20 @@ std::vector<Replicates> grouped(const std::vector<JobResult>& jobs) {
 }
 
 /// Half the width of the interval with that probability; 0 if the values differ by rounding errors.
-double half_width(const std::vector<double>& values, double level) {
-  const ConfidenceInterval interval = confidence_interval(values, level);
-  return is_rounding(interval.half_width, interval.mean) ? 0 : interval.half_width;
+double half_width(const MeanOfRuns& mean, double level) {
+  const double width = mean.half_width(level);
+  return is_rounding(width, mean.mean) ? 0 : width;
 }
 
 AveragedFigure averaged(const std::string& name, const std::vector<const Figures*>& jobs) {
-  std::vector<double> values;
-  for (const Figures* figures : jobs) values.push_back(figure(*figures, name));
-  return {name, mean_of(values), half_width(values, one_sigma), half_width(values, 0.95)};
+  std::vector<double> values, errors;
+  for (const Figures* figures : jobs) {
+    values.push_back(figure(*figures, name));
+    errors.push_back(figure(*figures, name + error_suffix));
+  }
+  const MeanOfRuns mean = mean_of_runs(values, errors);
+  return {name,         mean.mean,        half_width(mean, one_sigma), half_width(mean, 0.95),
+          mean.scatter, mean.is_excessive};
 }
 
 }  // namespace
@@ -68,7 +74,8 @@ AveragedFigure SeedAverage::find(const std::string& name) const {
   const auto found =
       std::find_if(figures.begin(), figures.end(),
                    [&](const AveragedFigure& figure) { return figure.name == name; });
-  return found == figures.end() ? AveragedFigure{name, unknown, unknown, unknown} : *found;
+  return found == figures.end() ? AveragedFigure{name, unknown, unknown, unknown, unknown, false}
+                                : *found;
 }
 
 std::vector<SeedAverage> seed_averages(const std::vector<JobResult>& jobs) {
@@ -76,7 +83,7 @@ std::vector<SeedAverage> seed_averages(const std::vector<JobResult>& jobs) {
   for (const Replicates& group : grouped(jobs)) {
     SeedAverage& average = averages.emplace_back(SeedAverage{group.values, group.jobs.size(), {}});
     for (const auto& [name, value] : *group.jobs.front())
-      if (!name.ends_with("_error")) average.figures.push_back(averaged(name, group.jobs));
+      if (!name.ends_with(error_suffix)) average.figures.push_back(averaged(name, group.jobs));
   }
   return averages;
 }

@@ -22,13 +22,15 @@ struct JobResult {
   Figures figures;
 };
 
-/// The average of one number over seeds; NaN if not every seed has it, as those that lack it are often those that
-/// are special.
+/// The average of one number over seeds, from the scatter of the seeds and the errors of the runs (mean_of_runs in
+/// blocking.h); NaN if not every seed has it, as those that lack it are often those that are special.
 struct AveragedFigure {
   std::string name;
   double mean;
   double error;       ///< standard error, such that mean ± error covers 68.3 %; NaN for one seed
-  double half_width;  ///< of the 95 % interval (confidence_interval); NaN for one seed
+  double half_width;  ///< of the 95 % interval; NaN for one seed
+  double scatter;     ///< of the seeds over the errors of the runs; NaN where these are not known
+  bool is_excessive;  ///< the seeds differ by more than the errors of the runs explain
 };
 
 /// All jobs with the same values but for system.seed.

@@ -87,22 +87,29 @@ Column value_column(const std::vector<SeedAverage>& averages, std::size_t k) {
 /// Means with their errors, and half the width of their intervals.
 void add_figure(const std::vector<SeedAverage>& averages, const std::string& name,
                 const std::string& unit, Table& table) {
-  Column mean{name, unit, {}, {}}, interval{name + "_interval", unit, {}, {}};
+  Column mean{name, unit, {}, {}}, interval{name + "_interval", unit, {}, {}},
+      scatter{name + "_scatter", "1", {}, {}};
   for (const SeedAverage& average : averages) {
     const AveragedFigure figure = average.find(name);
     mean.value.push_back(figure.mean);
     mean.error.push_back(figure.error);
     interval.value.push_back(figure.half_width);
+    scatter.value.push_back(figure.scatter);
   }
+  const bool has_errors =
+      std::ranges::any_of(scatter.value, [](double ratio) { return std::isfinite(ratio); });
   table.columns.insert(table.columns.end(), {std::move(mean), std::move(interval)});
+  if (has_errors) table.columns.push_back(std::move(scatter));
 }
 
 Table seeds_table(const std::vector<SeedAverage>& averages, const Results& units) {
-  Table table{"seeds",
-              "Averages over the runs that differ in their seeds only, a row for every combination "
-              "of the other values of the sweep. <name>_error: standard error of the mean; "
-              "<name>_interval: half the width of its 95 % confidence interval.",
-              {}};
+  Table table{
+      "seeds",
+      "Averages over the runs that differ in their seeds only, a row for every combination "
+      "of the other values of the sweep. <name>_error: standard error of the mean; "
+      "<name>_interval: half the width of its 95 % confidence interval; <name>_scatter: scatter "
+      "of the seeds over the errors of their runs, about 1 if these explain it.",
+      {}};
   const SeedAverage& first = averages.front();
   for (std::size_t k = 0; k < first.values.size(); ++k)
     table.columns.push_back(value_column(averages, k));

@@ -103,6 +103,19 @@ std::vector<SeedAverage> averages_of(const std::vector<SweepJob>& jobs, const fs
   return seed_averages(results);
 }
 
+/// Of which averages the seeds differ by more than the errors of their runs explain.
+std::string scatter_text(const std::vector<SeedAverage>& averages) {
+  std::string text;
+  for (const SeedAverage& average : averages)
+    for (const ShownFigure& shown : shown_figures)
+      if (const AveragedFigure figure = average.find(shown.key);
+          shown.is_averaged && figure.is_excessive)
+        text += fmt::format(
+            "{}: the seeds of {} differ {:.1f} times as much as the errors of their runs explain\n",
+            average.name(), shown.title, figure.scatter);
+  return text;
+}
+
 std::string seed_rows(const std::vector<SeedAverage>& averages) {
   std::vector<Row> rows = {{"mean over seeds ± 95 %", "seeds"}};
   for (const ShownFigure& shown : shown_figures)
@@ -115,7 +128,7 @@ std::string seed_rows(const std::vector<SeedAverage>& averages) {
         row.push_back(with_error(figure.mean, figure.half_width));
       }
   }
-  return table_text(std::move(rows), 1);
+  return table_text(std::move(rows), 1) + scatter_text(averages);
 }
 
 Json seeds_json(const std::vector<SeedAverage>& averages) {
@@ -126,6 +139,8 @@ Json seeds_json(const std::vector<SeedAverage>& averages) {
       figures[figure.name] = {
           {"mean", figure.mean},
           {"error", figure.error},
+          {"scatter", figure.scatter},
+          {"excessive_scatter", figure.is_excessive},
           {"interval", {figure.mean - figure.half_width, figure.mean + figure.half_width}}};
     Json values = Json::object();
     for (const auto& [key, text] : average.values) values[key] = parse_json(text, key);
