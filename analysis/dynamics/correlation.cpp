@@ -27,11 +27,20 @@ std::vector<double> means(const CorrelationSum& sum, std::size_t particles) {
   return series;
 }
 
-/// Of a series of origins that forget within four time differences.
+/// What blocks of two time differences show of the correlations (1 − s/lag)².
+constexpr double seen_of_diffusion = 7.0 / 8;
+
+/// Of a series of origins that have the correlations of diffusion.
 Estimate over_origins(std::span<const double> series, const Lag& lag) {
   const Estimate plateau = block_average(series, lag.shortest_block());
-  const auto block = static_cast<std::size_t>(std::ceil(lag.shortest_block()));
-  return plateau.blocks > 0 || block == 1 ? plateau : known_block_average(series, block);
+  const auto two_lags = static_cast<std::size_t>(std::ceil(lag.shortest_block() / 2));
+  return plateau.blocks > 0 || two_lags == 1
+             ? plateau
+             : known_block_average(series, two_lags, seen_of_diffusion);
+}
+
+double without_student(const Estimate& estimate) {
+  return estimate.blocks == 0 ? unknown : estimate.error / student_factor(estimate.blocks - 1);
 }
 
 /// Points at the long end that tell how many particles move together.
@@ -47,7 +56,7 @@ void Correlation::push_back(const Estimate& estimate) {
 
 void Correlation::push_back(const PointEstimate& point) {
   push_back(point.by_blocks);
-  const double quotient = point.by_blocks.error / point.spread;
+  const double quotient = without_student(point.by_blocks) / point.spread;
   if (blocks.back() == 0)
     error.back() = point.spread * cooperation();
   else if (std::isfinite(quotient))
@@ -136,7 +145,7 @@ Estimate susceptibility(const CorrelationSum& sum, const Lag& lag, std::size_t p
   for (double& q : series) q = n * (q - overlap.mean) * (q - overlap.mean);
   const Estimate variance = over_origins(series, lag);
   if (overlap.blocks == 0 || variance.blocks == 0) return {unknown, unknown, 0};
-  const double uncertainty = overlap.error / student_factor(overlap.blocks - 1);
+  const double uncertainty = without_student(overlap);
   return {variance.mean + n * uncertainty * uncertainty, variance.error, variance.blocks};
 }
 

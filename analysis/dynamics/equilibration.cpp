@@ -83,7 +83,8 @@ BlockError error_of_residual(const std::vector<double>& residual, double shortes
   const BlockError plateau = without_student(block_average(residual, shortest_block));
   if (plateau.blocks > 0) return plateau;
   const auto length = static_cast<std::size_t>(std::ceil(std::max(1.0, shortest_block)));
-  const BlockError known = without_student(known_block_average(residual, length, correlation));
+  const BlockError known = without_student(
+      known_block_average(residual, length, seen_of_exponential(length, correlation)));
   const double m = static_cast<double>(known.blocks);
   return {known.error * std::sqrt((m - 1) / (m - 2)), known.blocks};
 }

@@ -37,15 +37,17 @@ Estimate block_average(std::span<const double> series, double shortest_block) {
   return sums.estimate(shortest_block);
 }
 
-Estimate known_block_average(std::span<const double> series, std::size_t block,
-                             double correlation) {
+Estimate known_block_average(std::span<const double> series, std::size_t block, double seen) {
   const std::size_t blocks = series.size() / block;
   ValueSums sums;
   for (std::size_t b = 0; b < blocks; ++b) sums.add(mean_of(series.subspan(b * block, block)));
   if (blocks < min_blocks) return {mean_of(series), unknown, 0};
-  const double ratio = static_cast<double>(block) / correlation;
-  const double seen = correlation > 0 ? 1 + std::expm1(-ratio) / ratio : 1;
   return {mean_of(series), independent_average({&sums, 1}).error / std::sqrt(seen), blocks};
+}
+
+double seen_of_exponential(std::size_t block, double correlation) {
+  const double ratio = static_cast<double>(block) / correlation;
+  return correlation > 0 ? 1 + std::expm1(-ratio) / ratio : 1;
 }
 
 std::size_t correlation_steps(std::span<const double> series) {
@@ -71,8 +73,8 @@ Estimate slow_average(std::span<const double> series, double shortest_block) {
   const Estimate plateau = block_average(series, shortest_block);
   if (plateau.blocks > 0) return plateau;
   const std::size_t steps = correlation_steps(series);
-  return known_block_average(series, std::max<std::size_t>(1, 2 * steps),
-                             static_cast<double>(steps));
+  const std::size_t block = std::max<std::size_t>(1, 2 * steps);
+  return known_block_average(series, block, seen_of_exponential(block, static_cast<double>(steps)));
 }
 
 void BlockSums::add(double value) {

@@ -36,12 +36,13 @@ struct Estimate {
 /// Ríos & Drummond, Phys. Rev. E 83, 066706 (2011) for 2.
 Estimate block_average(std::span<const double> series, double shortest_block = 1);
 
-/// The same from blocks of a given length B, for a caller who knows the correlations. If these decay
-/// exponentially in `correlation` = τ steps, the variance of the block means misses the part
-/// (τ/B)(1 − exp(−B/τ)), which is put back. NaN as error for fewer than `min_blocks` blocks; what is
-/// left over counts for the mean only.
-Estimate known_block_average(std::span<const double> series, std::size_t block,
-                             double correlation = 0);
+/// The same from blocks of a given length, for a caller who knows the correlations c(s): `seen` is the part of the
+/// variance that blocks of B steps show, ∫₀^B (1 − s/B) c(s) ds/∫₀^∞ c(s) ds. NaN as error for fewer than
+/// `min_blocks` blocks; what is left over counts for the mean only.
+Estimate known_block_average(std::span<const double> series, std::size_t block, double seen = 1);
+
+/// The part that blocks of B steps show of correlations exp(−s/τ), but for exp(−B/τ): 1 − (τ/B)(1 − exp(−B/τ)).
+double seen_of_exponential(std::size_t block, double correlation);
 
 /// The steps k after which the autocorrelation of a series of n values has fallen to 1/e; 0 of a constant
 /// (but for rounding, 1e-9 of the mean). The mean of a short series follows the series, which takes

@@ -214,6 +214,20 @@ std::vector<double> Distribution::quantiles(std::size_t n) const {
   return values;
 }
 
+bool Species::has_one_shape() const {
+  const auto is_constant = [](const Distribution& d) {
+    return d.kind == Distribution::Kind::constant;
+  };
+  const auto all_constant = [&](const auto& entries) {
+    return !entries || std::ranges::all_of(*entries, is_constant);
+  };
+  const auto each_constant = [&](const auto&... entry) {
+    return (... && (!entry || is_constant(*entry)));
+  };
+  return each_constant(aspect_ratio, size, first_semi_axis) && all_constant(aspect_ratios) &&
+         all_constant(semi_axes);
+}
+
 std::vector<std::size_t> species_counts(const std::vector<Species>& species,
                                         std::size_t particles) {
   std::vector<std::size_t> counts;

@@ -55,6 +55,9 @@ struct Species {
   std::optional<double> mass;  ///< of every particle; a b (a b c: uniform density) if not given
   std::optional<double>
       initial_temperature;  ///< kT of drawn velocities at the start of a run; 1 if not given
+
+  /// Whether its particles are all alike.
+  bool has_one_shape() const;
 };
 
 /// The mass of a particle whose species has none: a b or a b c, that at the density of a round particle of radius 1 and

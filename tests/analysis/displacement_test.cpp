@@ -200,9 +200,9 @@ TEST(Displacement, UnevenTimesAreAveragedOverAllPairsOfEqualDifference) {
 
 // 100 runs. Counts stay within 3.5 binomial standard deviations (4.65 for one error, 2.2 for two) of
 // 68.27 and 95: false-alarm rate 0.05 % for each of 108, 5 % for all. Lags up to 10 steps have errors
-// by blocking, longer ones by particles.
+// by blocking, longer ones by particles, but for correlations that decay, which have blocks of their own memory.
 TEST(Displacement, ErrorBarsCoverTheClosedForms) {
-  for (const auto& [what, counts] : coverage_of_free_runs(1000, {1, 5, 10, 50})) {
+  for (const auto& [what, counts] : coverage_of_free_runs(1000, {1, 5, 10, 100})) {
     const std::string where = fmt::format("{} at {}", what.first, what.second);
     const bool by_blocks = what.second <= 10;
     if (what.first == "chi_4" && !by_blocks) {
@@ -212,7 +212,8 @@ TEST(Displacement, ErrorBarsCoverTheClosedForms) {
     EXPECT_GE(counts.runs, 99) << where;
     EXPECT_NEAR(100.0 * counts.one / counts.runs, 68.27, 3.5 * 4.65) << where;
     EXPECT_NEAR(100.0 * counts.two / counts.runs, 95, 3.5 * 2.2) << where;
-    EXPECT_EQ(counts.blocked > 50, by_blocks) << where;
+    const bool decays = what.first.starts_with("F_s") || what.first.starts_with("L_");
+    EXPECT_EQ(counts.blocked > 50, by_blocks || decays) << where;
   }
 }
 

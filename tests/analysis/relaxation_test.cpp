@@ -50,7 +50,8 @@ TEST(RelaxationTime, BetweenTwoPointsIsInterpolatedInLogarithmicTime) {
   const RelaxationTime tau = relaxation_time({{1, 4}, {0.5, 0.25}, {0.01, 0.03}});
   const double slope = -0.25 / std::log(4);
   EXPECT_NEAR(tau.value, std::exp((1 / std::numbers::e - 0.5) / slope), 1e-12);
-  EXPECT_NEAR(tau.error, tau.value * 0.02 / -slope, 1e-12);
+  const double error = 0.01 + 0.02 * std::log(tau.value) / std::log(4);
+  EXPECT_NEAR(tau.error, tau.value * error / -slope, 1e-12);
 }
 
 /// ⟨cos Δθ⟩ of n independent Brownian rotors from one origin, D_r = 1/20: exp(−t/20).

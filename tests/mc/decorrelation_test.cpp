@@ -127,18 +127,18 @@ TEST(Decorrelation, EvenOneSweepIsMeasured) {
   EXPECT_EQ(result->compressibility.size(), 1u);
 }
 
-// Z(0.3) = 2.063261 for disks (Kolafa & Rottner 2006). 240 configurations of 400 disks in ten
+// Z(0.3) = 2.063261 for disks (Kolafa & Rottner 2006). 720 configurations of 400 disks in ten
 // blocks, five standard errors: with ten blocks, a false alarm in 1500.
 TEST(Decorrelation, ThePressureIsThatOfTheDiskFluid) {
   const Configuration2 state = square_lattice(20, 0.3, 0, [](std::size_t) {
     return Ellipse{1, 1};
   });
-  const auto result = measure_decorrelation(state, 1500, 2, 0, {});
+  const auto result = measure_decorrelation(state, 4500, 2, 0, {});
   ASSERT_TRUE(result);
   std::vector<double> blocks;
-  for (std::size_t k = 0; k + 24 <= result->compressibility.size(); k += 24) {
+  for (std::size_t k = 0; k + 72 <= result->compressibility.size(); k += 72) {
     double sum = 0;
-    for (std::size_t m = 0; m < 24; ++m) sum += result->compressibility[k + m] / 24;
+    for (std::size_t m = 0; m < 72; ++m) sum += result->compressibility[k + m] / 72;
     blocks.push_back(sum);
   }
   ASSERT_EQ(blocks.size(), 10u);

@@ -38,7 +38,7 @@ TEST_P(PairPressure, OfRandomInsertionsIsExact) {
   const Configuration2 empty = two_particles(shape, 5 * shape.a);
   std::vector<double> values;
   ContactPressure pressure;
-  for (int k = 0; k < 200'000; ++k) {
+  for (int k = 0; k < 300'000; ++k) {
     Configuration2 c = empty;
     insert_particles(c, {packing_fraction(empty), 1'000'000, false}, k, {});
     pressure.add(c);
@@ -61,7 +61,7 @@ TEST_P(PairPressure, OfTheSamplerIsExact) {
   sampler.set_steps(2.5 * shape.a, 1.5);
   std::vector<double> values;
   ContactPressure pressure;
-  for (int block = 0; block < 1000; ++block) {
+  for (int block = 0; block < 1500; ++block) {
     for (int k = 0; k < 200; ++k) {
       sampler.sweep();
       sampler.sweep();

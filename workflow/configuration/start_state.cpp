@@ -17,19 +17,6 @@
 namespace vitrel {
 namespace {
 
-bool is_constant(const std::optional<Distribution>& d) {
-  return !d || d->kind == Distribution::Kind::constant;
-}
-
-bool has_one_shape(const Species& species) {
-  const auto all_constant = [](const auto& entries) {
-    return !entries || std::ranges::all_of(*entries, is_constant);
-  };
-  return is_constant(species.aspect_ratio) && is_constant(species.size) &&
-         is_constant(species.first_semi_axis) && all_constant(species.aspect_ratios) &&
-         all_constant(species.semi_axes);
-}
-
 /// Of a species whose particles are all alike.
 template <int Dim>
 Vec3 semi_axes_of(Species species) {
@@ -104,7 +91,7 @@ std::vector<KnownSpecies> known_species(const Parameters& parameters) {
   for (const Species& species : parameters.species) {
     KnownSpecies& one = known.emplace_back(KnownSpecies{species.name});
     one.mass = species.mass;
-    if (has_one_shape(species))
+    if (species.has_one_shape())
       one.semi_axes = is_plane ? semi_axes_of<2>(species) : semi_axes_of<3>(species);
   }
   return known;

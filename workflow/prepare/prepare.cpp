@@ -10,6 +10,7 @@
 #include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "core/io/number_text.h"
 #include "core/state/typical_scales.h"
 #include "workflow/configuration/start_state.h"
 #include "workflow/prepare/prepare_checkpoint.h"
@@ -34,10 +35,8 @@ std::string end_text(const StageRecord& record) {
   std::string text =
       fmt::format("{}; packing fraction {:.6g}", record.report.reason, record.packing_fraction);
   if (!(mean.mean > 0)) return text;
-  return text +
-         (std::isfinite(mean.error)
-              ? fmt::format(", in the second half {:.6g} ± {:.2g}", mean.mean, mean.error)
-              : fmt::format(", in the second half {:.6g}, too few sweeps for an error", mean.mean));
+  text += ", in the second half " + with_error(mean.mean, mean.error);
+  return std::isfinite(mean.error) ? text : text + ", too few sweeps for an error";
 }
 
 template <int Dim>

@@ -27,7 +27,7 @@ QualityRow decay_row(const std::string& name, const std::optional<std::uint64_t>
 void note_pressure(StateQuality& quality, double grown) {
   if (quality.decorrelation && grown < min_jammed_pressure) {
     quality.pressure_from = From::sampling;
-    quality.reduced_pressure = block_average(quality.decorrelation->compressibility);
+    quality.reduced_pressure = slow_average(quality.decorrelation->compressibility);
     quality.reduced_pressure.error =
         std::hypot(quality.reduced_pressure.error, quality.decorrelation->compressibility_bias);
   } else if (grown > 0) {

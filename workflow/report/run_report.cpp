@@ -16,10 +16,16 @@ namespace vitrel {
 namespace {
 
 /// None if the file does not say.
-std::optional<DynamicsParameters> stored_dynamics(const TrajectoryReader& reader) {
+std::optional<Parameters> stored_parameters(const TrajectoryReader& reader) {
   const std::string parameters = reader.provenance().parameters;
   if (parameters.empty()) return std::nullopt;
-  return parse_parameters(parameters, reader.path().string()).dynamics;
+  return parse_parameters(parameters, reader.path().string());
+}
+
+/// Whether runs with other seeds have other particles.
+bool has_particles_of_its_own(const std::optional<Parameters>& parameters) {
+  return parameters && parameters->system.draw == ShapeDraw::random &&
+         !std::ranges::all_of(parameters->species, &Species::has_one_shape);
 }
 
 std::string dynamics_text(const DynamicsParameters& p) {
@@ -83,7 +89,8 @@ double collisions_per_second(const TrajectoryReader& reader) {
 template <int Dim>
 ReportRun report_run(const AnalysedRun& run, TrajectoryFile<Dim>& trajectory, std::size_t room) {
   const TrajectoryReader& reader = trajectory.reader();
-  const auto dynamics = stored_dynamics(reader);
+  const auto parameters = stored_parameters(reader);
+  const auto dynamics = parameters ? std::optional(parameters->dynamics) : std::nullopt;
   const MovieLimits limits{.characters = room, .images_known = reader.has("image")};
   return {run.name(),
           dynamics ? dynamics_text(*dynamics) : "",
@@ -124,6 +131,11 @@ void add_runs(const std::vector<AnalysedRun>& runs, const KnownSystem& known, Re
     add_titles(runs, trajectory.read(0), data);
     data.parameters += trajectory.reader().provenance().parameters;
     data.units = trajectory.reader().units();
+    if (has_particles_of_its_own(stored_parameters(trajectory.reader())))
+      data.provenance.emplace_back(
+          "errors",
+          "of this realisation of sizes and shapes: every seed has its own "
+          "(system.draw), and differs by more");
     if (runs.size() > 1) continue;
     for (const auto& row : trajectory.reader().import_report()) data.provenance.push_back(row);
   }

@@ -28,7 +28,7 @@ void describe_box(CompressStage& stage, FieldVisitor& visit) {
 }
 
 Estimate mean_of_second_half(const std::vector<double>& series) {
-  return block_average(std::span(series).subspan(series.size() / 2));
+  return slow_average(std::span(series).subspan(series.size() / 2));
 }
 
 }  // namespace

@@ -1,0 +1,191 @@
+"""Error bars against the scatter of seeds: every quantity with a stated error, in runs that differ only in their seed."""
+
+import json
+import math
+import pathlib
+import tempfile
+
+from validation.common import POWER_LAW, expect, summary_of, table
+
+TITLE = "Error bars against the scatter of seeds"
+SEEDS = range(1, 161)
+# Scatter over stated error. With 160 seeds of normal values the ratio itself has an error of 6 %.
+LEAST, MOST = 0.8, 1.25
+# The same for the share of values within one stated error of the mean.
+LEAST_COVERED, MOST_COVERED = (math.erf(1 / limit / math.sqrt(2)) for limit in (MOST, LEAST))
+MOST_REFUSED = 5
+RESAMPLES = 400
+
+BROWNIAN = 'kind = "brownian"\nequilibration = 20\n'
+SOFT = """
+[dynamics.contact]
+radius = "1 cm"
+density = "1140 kg/m^3"
+thermal_speed = "2 m/s"
+law = "linear_dashpot"
+stiffness = "100000 N/m"
+"""
+
+# What is simulated: [system], species, [dynamics], sample interval and what follows.
+SYSTEMS = {
+    "disks": ("particles = 100\npacking_fraction = 0.6", ["aspect_ratio = 1"], "duration = 200", 0.5, ""),
+    "ellipses": ("particles = 100\npacking_fraction = 0.6", ["aspect_ratio = 2"], "duration = 200", 0.5, ""),
+    "brownian_ellipses": ("particles = 100\npacking_fraction = 0.65", ["aspect_ratio = 2"], BROWNIAN + "duration = 300",
+                          0.5, ""),
+    "short": ("particles = 100\npacking_fraction = 0.65", ["aspect_ratio = 2"], BROWNIAN + "duration = 80", 0.5, ""),
+    "mixture": ("particles = 100\npacking_fraction = 0.65",
+                ["aspect_ratio = 1.5\nsize = 0.8\nfraction = 0.5", "aspect_ratio = 2\nsize = 1.2\nfraction = 0.5"],
+                BROWNIAN + "duration = 300", 0.5, ""),
+    "polydisperse": ("particles = 100\npacking_fraction = 0.68", [f"aspect_ratio = 1.5\nsize = {POWER_LAW}"],
+                     BROWNIAN + "duration = 300", 0.5, ""),
+    "spheres": ("dimension = 3\nparticles = 108\npacking_fraction = 0.45", ["aspect_ratio = 1"], "duration = 100", 0.25,
+                ""),
+    "brownian_spheroids": ("dimension = 3\nparticles = 108\npacking_fraction = 0.45", ["aspect_ratio = 2"],
+                           BROWNIAN + "duration = 150", 0.5, ""),
+    "soft": ("particles = 100\npacking_fraction = 0.5", ["aspect_ratio = 1"], "duration = 200", 0.5, SOFT),
+}
+NPT = """[[prepare.stage]]
+method = "insert"
+packing_fraction = 0.3
+[[prepare.stage]]
+method = "compress"
+pressure = 2
+sweeps = 4000
+"""
+SYSTEMS["compressed"] = ("particles = 100", ["aspect_ratio = 2"], "duration = 20", 0.5, NPT)
+# Errors that rest on few blocks differ much from run to run. Such ones are right if they cover.
+JUDGED_BY_COVERAGE = {"short"}
+
+
+def parameters(name, seeds):
+    system, species, dynamics, interval, rest = SYSTEMS[name]
+    kinds = "".join(f'[[species]]\nname = "{letter}"\n{kind}\n' for letter, kind in zip("AB", species))
+    return (f"[system]\n{system}\n{kinds}[dynamics]\n{dynamics}\n{rest}"
+            f"[output]\nsamples = {{ interval = {interval} }}\n"
+            f'[sweep.grid]\n"system.seed" = {list(seeds)}\n')
+
+
+def prepared(folder):
+    """What the preparation of a job states with an error."""
+    state = json.loads((folder / "prepare.json").read_text(encoding="utf-8"))
+    pressure = state["quality"]["reduced_pressure"]
+    found = {"quality report: reduced_pressure": (pressure["value"], pressure["error"])}
+    if (mean := state["stages"][-1]["mean_packing_fraction"]) is not None:
+        found["compression: packing_fraction"] = mean, state["stages"][-1]["mean_packing_fraction_error"]
+    return found
+
+
+def measured(folder):
+    """All quantities of a job that have an error, by table and column: values and errors."""
+    import h5py  # only here: a test imports all validations
+
+    found = prepared(folder)
+    with h5py.File(folder / "results.h5") as results:
+        for group in results.values():
+            if not isinstance(group, h5py.Group):
+                continue
+            for name in group:
+                if f"{name}_error" in group:
+                    found[f"{group.name[1:]}: {name}"] = group[name][()], group[f"{name}_error"][()]
+    return found
+
+
+def sampled(build, name, seeds=SEEDS):
+    """Arrays seeds × points of the values and the errors of every quantity of a system."""
+    import numpy
+
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "parameters.toml")
+        file.write_text(parameters(name, seeds), encoding="utf-8")
+        sweep = pathlib.Path(folder, "sweep")
+        summary_of(build, "sweep", file, "-o", sweep, "-j", "2", "--quiet")
+        runs = [measured(sweep / f"seed-{seed}") for seed in seeds]
+    found = {}
+    for quantity in runs[0]:
+        pairs = [[numpy.atleast_1d(numpy.asarray(x, dtype=float)) for x in run[quantity]] for run in runs]
+        if len({len(value) for value, _ in pairs}) == 1:  # else the points differ, as distances in boxes that do
+            found[quantity] = tuple(numpy.array(part) for part in zip(*pairs))
+    return found
+
+
+def ratio(values, errors):
+    """Scatter over stated error, pooled over the points of a curve, with its 95 % interval from resampled seeds; None where
+    most errors are refused.
+    """
+    import numpy
+
+    stated = numpy.isfinite(errors) & (errors > 0)
+    points = stated.mean(axis=0) > 0.8
+    if not points.any():
+        return None
+    values, errors = (numpy.where(stated, x, numpy.nan)[:, points] for x in (values, errors))
+
+    def pooled(rows):
+        scatter = numpy.nanvar(values[rows], axis=0, ddof=1)
+        return math.sqrt(numpy.mean(scatter / numpy.nanmean(errors[rows]**2, axis=0)))
+
+    seeds = len(values)
+    random = numpy.random.default_rng(1)
+    resampled = [pooled(random.integers(seeds, size=seeds)) for _ in range(RESAMPLES)]
+    low, high = numpy.quantile(resampled, (0.025, 0.975))
+    return pooled(numpy.arange(seeds)), low, high
+
+
+def coverage(values, errors):
+    """The share of values within one stated error of the mean over the seeds, pooled over the points."""
+    import numpy
+
+    stated = numpy.isfinite(errors) & (errors > 0)
+    mean = numpy.nanmean(numpy.where(stated, values, numpy.nan), axis=0)
+    return (numpy.abs(values - mean) < errors)[stated].mean()
+
+
+class Judged:
+    """Ratio, its interval and the coverage of a quantity of a system, and whether they are as they should be."""
+
+    def __init__(self, system, values, errors):
+        found = ratio(values, errors)
+        self.refused = found is None
+        if self.refused:
+            return
+        self.ratio, self.low, self.high = found
+        self.covered = coverage(values, errors)
+        by_coverage = LEAST_COVERED <= self.covered <= MOST_COVERED
+        self.right = by_coverage if system in JUDGED_BY_COVERAGE else LEAST <= self.ratio <= MOST
+
+    def cell(self):
+        if self.refused:
+            return "none"
+        text = f"{self.ratio:.2f} ({self.low:.2f} to {self.high:.2f}), {100 * self.covered:.0f} %"
+        return text if self.right else f"**{text}**"
+
+
+def varies(values):
+    """Whether it differs between seeds: not if it is conserved, or no quantity of these particles."""
+    import numpy
+
+    spread = numpy.nanstd(values, axis=0) if numpy.isfinite(values).any() else numpy.zeros(1)
+    return bool((spread > 1e-9 * numpy.abs(numpy.nanmean(values))).any())
+
+
+def measure(build):
+    judged = {}
+    for system in SYSTEMS:
+        for quantity, (values, errors) in sampled(build, system).items():
+            if varies(values):
+                judged.setdefault(quantity, {})[system] = Judged(system, values, errors)
+    wrong = [f"{quantity} of {system}: {one.cell()}" for quantity, of_systems in judged.items()
+             for system, one in of_systems.items() if not one.refused and not one.right]
+    refused = [quantity for quantity, of_systems in judged.items() if any(one.refused for one in of_systems.values())]
+    expect(not wrong, "errors do not cover: " + "; ".join(wrong))
+    expect(len(refused) <= MOST_REFUSED, f"{len(refused)} quantities are refused: " + ", ".join(refused))
+    rows = [[quantity, *(of_systems[system].cell() if system in of_systems else "" for system in SYSTEMS)]
+            for quantity, of_systems in sorted(judged.items())]
+    return f"""
+{len(SEEDS)} runs of each system differ in nothing but their seed. Scatter of the runs over their stated error, pooled over the
+points of a curve, with its 95 % interval, and the share of values within one stated error of the mean, which should be 68 %.
+All ratios lie between {LEAST} and {MOST}; the errors of short runs rest on few blocks and are judged by their coverage,
+which those ratios put between {100 * LEAST_COVERED:.0f} and {100 * MOST_COVERED:.0f} %. "none": most runs state no error, because they are too short for one.
+
+{table(["quantity", *(system.replace("_", " ") for system in SYSTEMS)], rows)}
+"""
