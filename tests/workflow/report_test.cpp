@@ -369,6 +369,24 @@ TEST(ReportPage, OfASweepNamesItAndGivesTheProvenanceOfEveryJob) {
   EXPECT_EQ(count(page, "<dt>seed</dt>"), 0u);
 }
 
+TEST(ReportPage, SaysThatOtherSeedsHaveOtherParticles) {
+  const testing_program::Folder folder("own_particles");
+  const std::string run = small_run("spacing = \"linear\", interval = 0.1");
+  const auto page_with = [&](const std::string& name, std::vector<std::string> settings) {
+    std::vector<std::string> words = {"run", "p.toml", "-o", name + ".h5", "-q"};
+    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+    folder.write("p.toml", run);
+    EXPECT_EQ(testing_program::run(folder.path(), words).code, 0);
+    EXPECT_EQ(testing_program::run(folder.path(), {"report", name + ".h5", "-q"}).code, 0);
+    return folder.read(name + ".html");
+  };
+  const std::string sizes = "species.0.size={ standard_deviation = 0.05 }";
+  const char* note = "of this realisation of sizes and shapes";
+  EXPECT_EQ(count(page_with("random", {"system.draw=random", sizes}), note), 1u);
+  EXPECT_EQ(count(page_with("quantiles", {sizes}), note), 0u);
+  EXPECT_EQ(count(page_with("alike", {"system.draw=random"}), note), 0u);
+}
+
 TEST(ReportPage, WhatIsNotKnownIsADash) {
   ReportData data;
   data.runs.resize(1);
