@@ -92,8 +92,9 @@ PointEstimate CorrelationSum::estimate(const Lag& lag, std::size_t particles) co
 }
 
 PointEstimate CorrelationSum::estimate_of_decay(const Lag& lag, std::size_t particles) const {
-  return {slow_average(means(*this, particles), lag.shortest_block()),
-          independent_average(classes_).error};
+  const std::vector<double> series = means(*this, particles);
+  const Estimate blocks = block_average(series, lag.shortest_block());
+  return {blocks.blocks > 0 ? blocks : slow_average(series), independent_average(classes_).error};
 }
 
 PointEstimate CorrelationSum::estimate_with_plateau(const Lag& lag, std::size_t particles) const {

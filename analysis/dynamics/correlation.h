@@ -63,7 +63,7 @@ class CorrelationSum {
   std::span<const double> per_origin() const { return per_origin_; }
   PointEstimate estimate(const Lag& lag, std::size_t particles) const;
   /// Of an x that decays, and is remembered for no longer than it takes to: where the time difference is too long for
-  /// blocks of four, these have twice the correlation time of the series (slow_average in blocking.h).
+  /// blocks of four, these are as long as the series itself asks for (slow_average in blocking.h).
   PointEstimate estimate_of_decay(const Lag& lag, std::size_t particles) const;
   /// Of x that is remembered for longer than the time difference: blocks with a plateau only.
   PointEstimate estimate_with_plateau(const Lag& lag, std::size_t particles) const;

@@ -69,8 +69,8 @@ std::size_t correlation_steps(std::span<const double> series) {
   return lag;
 }
 
-Estimate slow_average(std::span<const double> series, double shortest_block) {
-  const Estimate plateau = block_average(series, shortest_block);
+Estimate slow_average(std::span<const double> series) {
+  const Estimate plateau = block_average(series);
   if (plateau.blocks > 0) return plateau;
   const std::size_t steps = correlation_steps(series);
   const std::size_t block = std::max<std::size_t>(1, 2 * steps);

@@ -53,7 +53,7 @@ std::size_t correlation_steps(std::span<const double> series);
 /// Of a series that may be slow: by blocking, or if that sees no plateau, from blocks of twice the
 /// correlation time of the series itself, for which sixteen correlation times are enough. The error
 /// covers the truth in 64 % of the cases then, instead of 68 (measured).
-Estimate slow_average(std::span<const double> series, double shortest_block = 1);
+Estimate slow_average(std::span<const double> series);
 
 /// The same for a series that comes value by value and is not kept: for every block length it holds
 /// number, mean and variance of the blocks so far, updated as they come [welford1962]. Memory
