@@ -325,6 +325,7 @@ HybridStage by_both(Moves moves) {
 SampleStage sampling(Moves moves) {
   SampleStage stage;
   stage.moves = moves;
+  stage.sweeps = 200;
   return stage;
 }
 
