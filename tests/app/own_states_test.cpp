@@ -450,6 +450,23 @@ TEST(OwnStates, APreparationFromAStateContinuesAfterAStop) {
   EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / "parts.h5"), testing::IsEmpty());
 }
 
+// The parameters of a job hold all keys, the packing fraction with its default, too.
+TEST(OwnStates, ASweepRunsStatesThatWerePreparedUpToAPressure) {
+  const Folder folder("sweep_at_pressure");
+  const std::string ends[] = {"method = \"compress\"\npressure = 0.5\nsweeps = 50\n",
+                              "method = \"grow\"\nreduced_pressure = 5\ngrowth_rate = 0.1\n"};
+  for (const std::string& end : ends) {
+    folder.write("p.toml",
+                 "[system]\nparticles = 20\n[[prepare.stage]]\npacking_fraction = 0.2\n"
+                 "[[prepare.stage]]\n" +
+                     end + "[[prepare.stage]]\nmethod = \"sample\"\nsweeps = 5\n" + run_in_plane +
+                     "[sweep.grid]\n\"system.seed\" = [1]\n");
+    const std::string sweep = end.substr(10, 4);
+    const Json job = summary_of(folder, {"sweep", "p.toml", "-o", sweep})["jobs"][0];
+    EXPECT_EQ(job["run"]["packing_fraction"], job["prepare"]["packing_fraction"]) << end;
+  }
+}
+
 TEST(OwnStates, ADensityLadderStartsFromTheDensityBefore) {
   const Folder folder("ladder");
   folder.write("p.toml",

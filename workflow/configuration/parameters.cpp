@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 
 #include "edmd/sampling.h"
 #include "workflow/configuration/hard_contacts.h"
@@ -64,12 +65,33 @@ bool places_particles(const TomlNode& stage) {
   return !name || vitrel::places_particles(*name);
 }
 
+/// Whether the last of the stages that change the density ends at a pressure.
+bool end_at_a_pressure(const TomlNode::Array& stages) {
+  for (const TomlNode& stage : std::views::reverse(stages)) {
+    const auto has = [&](const char* key) { return stage.find(key) != nullptr; };
+    if (has("reduced_pressure")) return true;
+    if (has("packing_fraction")) return false;
+    const TomlEntry* method = stage.find("method");
+    const std::string* name = method ? method->node.get<std::string>() : nullptr;
+    if (!name || *name != SampleStage::method) return name && *name == CompressStage::method;
+  }
+  return false;
+}
+
+/// The density of a state that was prepared up to a pressure is its own.
+void forget_packing_fraction(TomlNode& root) {
+  TomlNode* system = find(&root, "system");
+  if (auto* entries = system ? system->get<TomlNode::Table>() : nullptr)
+    std::erase_if(*entries, [](const TomlEntry& entry) { return entry.key == "packing_fraction"; });
+}
+
 void apply_start(TomlNode& root, const StartFile& start) {
   const std::string where = "--from " + start.file.string();
   TomlNode* prepare = find_or_make(&root, "prepare", {TomlNode::Table(), where});
   TomlNode* list = find_or_make(prepare, "stage", {TomlNode::Array(), where});
   auto* stages = list ? list->get<TomlNode::Array>() : nullptr;
   if (!stages) return;  // refused when it is read
+  if (end_at_a_pressure(*stages) && !start.keeps_moves) forget_packing_fraction(root);
   if (!stages->empty() && places_particles(stages->front()))
     stages->erase(stages->begin(), start.keeps_moves ? stages->begin() + 1 : stages->end());
   const auto text = [&](const char* key, const std::string& value) {
