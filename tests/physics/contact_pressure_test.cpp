@@ -25,8 +25,10 @@ Estimate monte_carlo(Configuration2& c, int blocks, int samples) {
   ContactPressure pressure;
   for (int block = 0; block < blocks; ++block) {
     for (int sample = 0; sample < samples; ++sample) {
-      for (int sweep = 0; sweep < 4; ++sweep) sampler.sweep();
-      pressure.add(c);
+      for (int sweep = 0; sweep < 4; ++sweep) {
+        sampler.sweep();
+        if (sweep % 2 == 1) pressure.add(c);
+      }
     }
     values.push_back(pressure.compressibility());
     pressure.clear();

@@ -71,7 +71,7 @@ using Estimates = std::array<Estimate, 3>;
 /// mix sizes: about 1000 sweeps at the densities of these tests.
 template <int Dim, class AnySampler>
 Estimates measured(Configuration<Dim>& c, AnySampler& sampler, int sweeps_per_sample) {
-  constexpr int tuning = 1000, blocks = 20, samples = 100;
+  constexpr int tuning = 1000, blocks = 20, samples = 100, sweeps_per_pressure = 2;
   for (int sweep = 1; sweep <= tuning; ++sweep) {
     sampler.sweep();
     if (sweep % 20 == 0) sampler.tune();
@@ -81,8 +81,10 @@ Estimates measured(Configuration<Dim>& c, AnySampler& sampler, int sweeps_per_sa
   for (int block = 0; block < blocks; ++block) {
     double structure = 0, sizes = 0;
     for (int sample = 0; sample < samples; ++sample) {
-      for (int sweep = 0; sweep < sweeps_per_sample; ++sweep) sampler.sweep();
-      pressure.add(c);
+      for (int sweep = 0; sweep < sweeps_per_sample; ++sweep) {
+        sampler.sweep();
+        if (sweep % sweeps_per_pressure == 0) pressure.add(c);
+      }
       structure += structure_factor(c) / samples;
       sizes += size_correlation(c) / samples;
     }

@@ -28,8 +28,9 @@ void note_pressure(StateQuality& quality, double grown) {
   if (quality.decorrelation && grown < min_jammed_pressure) {
     quality.pressure_from = From::sampling;
     quality.reduced_pressure = slow_average(quality.decorrelation->compressibility);
-    quality.reduced_pressure.error =
-        std::hypot(quality.reduced_pressure.error, quality.decorrelation->compressibility_bias);
+    const double bias = quality.decorrelation->compressibility_bias;
+    double& error = quality.reduced_pressure.error;
+    error = std::sqrt(error * error + bias * bias);
   } else if (grown > 0) {
     quality.pressure_from = From::growth;
     quality.reduced_pressure = {grown, unknown, 0};
