@@ -13,7 +13,8 @@ struct ChainPressures {
   Estimate of_chains, of_contacts;
 };
 
-/// How long the chains run: sweeps that tune, and then blocks of samples that are so many sweeps apart.
+/// How long the chains run: sweeps that tune, and then blocks of samples of so many sweeps. The contact function is
+/// evaluated after every other sweep.
 struct ChainSampling {
   int tuning, blocks, samples, sweeps_per_sample;
 };
@@ -30,8 +31,10 @@ ChainPressures chain_pressures(Configuration<Dim>& c, const ChainSampling& sampl
   for (int block = 0; block < sampling.blocks; ++block) {
     const ChainCounts before = chains.counts();
     for (int sample = 0; sample < sampling.samples; ++sample) {
-      for (int sweep = 0; sweep < sampling.sweeps_per_sample; ++sweep) chains.sweep();
-      pressure.add(c);
+      for (int sweep = 0; sweep < sampling.sweeps_per_sample; ++sweep) {
+        chains.sweep();
+        if (sweep % 2 == 0) pressure.add(c);
+      }
     }
     const ChainCounts& after = chains.counts();
     of_chains.push_back(1 + (after.ahead - before.ahead) / (after.length - before.length));
