@@ -111,7 +111,8 @@ Estimate BlockSums::estimate(double shortest_block) const {
     if (level.count < min_blocks) break;
     const double squared = squared_error(level.count, level.squares);
     const double correlation = std::max(1.0, squared / naive);
-    if (length >= shortest_block && length * length * length >= 2 * n * correlation * correlation) {
+    if (level.count < too_many_blocks && length >= shortest_block &&
+        length * length * length >= 2 * n * correlation * correlation) {
       const auto blocks = static_cast<std::size_t>(level.count);
       return {mean, std::sqrt(squared) * student_factor(blocks - 1), blocks};
     }

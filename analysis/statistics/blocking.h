@@ -25,7 +25,9 @@ struct Estimate {
 ///    longer than the correlations, and then stays on a plateau.
 /// 2. The plateau is said to begin at the smallest B with B³ ≥ 2 n max(1, e_B/e_1)⁴: there the bias
 ///    of e_B² from correlations between blocks equals its statistical scatter (n: length of the
-///    series). Blocks shorter than `shortest_block` are passed over: for a caller who knows how
+///    series), if these have one correlation time. Noise that is forgotten at once can hide a slow part,
+///    as in the pressure of a dense liquid; therefore blocks are also so long that fewer than `too_many_blocks`
+///    are left. Blocks shorter than `shortest_block` are passed over: for a caller who knows how
 ///    long the correlations are at least, and need not trust chance.
 /// 3. At least `min_blocks` blocks must be left there: some 60 to 180 correlation times, and never
 ///    below 32 values. If not, the error is NaN: the series is too short to tell.
@@ -82,6 +84,8 @@ class BlockSums {
 
 /// The fewest blocks on which an error may rest.
 inline constexpr std::size_t min_blocks = 8;
+/// So many blocks are too short for what is slow, and more than an error needs: that of 16 is known to 18 %.
+inline constexpr std::size_t too_many_blocks = 32;
 
 /// Number, sum and sum of squares of values.
 struct ValueSums {

@@ -56,7 +56,8 @@ DisplacementOptions two_wave_numbers() {
   return {.wave_numbers = {2, 4}, .overlap_distance = overlap_distance};
 }
 
-// Four standard errors: false-alarm rate 0.06 per mille for a normal variable, for each of 84 points.
+// Five standard errors from 16 blocks or more: false-alarm rate 0.16 per mille by Student's distribution, for each of 84
+// points.
 TEST(Displacement, FreeBrownianParticlesFollowTheClosedForms) {
   const Configuration2 start = ellipses(100);
   MemoryTrajectory2 trajectory = free_brownian(start, 801, 1);
@@ -71,7 +72,7 @@ TEST(Displacement, FreeBrownianParticlesFollowTheClosedForms) {
         continue;
       }
       EXPECT_GT(error, 0) << judge.name;
-      EXPECT_NEAR(judge.found->value.at(k), judge.truth, 4 * error)
+      EXPECT_NEAR(judge.found->value.at(k), judge.truth, 5 * error)
           << judge.name << " at " << result.lag[k];
     }
   EXPECT_LT(result.groups[0].translation.error[19], 0.1 * free_msd(2));
@@ -375,7 +376,8 @@ TEST(Displacement, PartsAlongAndAcrossTheLongAxisAtTheOriginOfTime) {
 
 // Half of the time all particles jump by 1 in every step, half of the time none does: Q of one step is
 // 0 or 1 for all at once, ⟨Q⟩ = 1/2 and χ_4 = N/4. Moves are drawn anew for every step, the same for
-// all: blocking sees N particles as one. Two standard errors.
+// all: blocking sees N particles as one. Two standard errors; that of an error from 31 blocks, 1/√60, is taken three
+// times.
 TEST(Displacement, SusceptibilityCountsParticlesThatMoveTogether) {
   Stream draw(7, Purpose::tests);
   Configuration2 configuration = ellipses(50);
@@ -389,7 +391,7 @@ TEST(Displacement, SusceptibilityCountsParticlesThatMoveTogether) {
   MemoryTrajectory2 trajectory(std::move(frames));
   const Displacements result = displacements(trajectory);
   EXPECT_NEAR(result.overlap.value[0], 0.5, 2 * result.overlap.error[0]);
-  EXPECT_NEAR(result.overlap.error[0], 0.5 / std::sqrt(2000), 0.2 * 0.5 / std::sqrt(2000));
+  EXPECT_NEAR(result.overlap.error[0], 0.5 / std::sqrt(2000), 0.39 * 0.5 / std::sqrt(2000));
   EXPECT_NEAR(result.susceptibility.value[0], 12.5, 0.02);
 }
 
