@@ -144,13 +144,17 @@ DiffusionCoefficient without(const std::string& reason) {
   return {unknown, unknown, unknown, unknown, reason};
 }
 
-/// Both halves of the shortest window have two points, which a slope needs.
-bool enough_points(const Slopes& slopes) {
+/// Whether both halves of a window have two points, which a slope needs.
+bool has_halves(const Slopes& slopes, std::size_t begin) {
   const std::vector<double>& time = slopes.curve().time;
-  if (time.size() < 4 || time.back() < later_window * time.front() * (1 - 1e-9)) return false;
-  const std::size_t begin = slopes.index(time.back() / shortest_window);
   const std::size_t middle = slopes.index(std::sqrt(time[begin] * time.back()));
   return middle >= begin + 2 && time.size() >= middle + 2;
+}
+
+bool enough_points(const Slopes& slopes) {
+  const std::vector<double>& time = slopes.curve().time;
+  return time.size() >= 4 && time.back() >= later_window * time.front() * (1 - 1e-9) &&
+         has_halves(slopes, slopes.index(time.back() / later_window));
 }
 
 /// Where the window begins: m = 1, but not too near to either end.
@@ -159,8 +163,10 @@ std::size_t first_point(const Slopes& slopes) {
   const auto moved =
       std::find_if(m.value.begin(), m.value.end(), [](double value) { return value >= 1; });
   const double longest = m.time.back();
-  return slopes.index(std::clamp(m.time[static_cast<std::size_t>(moved - m.value.begin())],
-                                 longest / longest_window, longest / shortest_window));
+  const std::size_t begin =
+      slopes.index(std::clamp(m.time[static_cast<std::size_t>(moved - m.value.begin())],
+                              longest / longest_window, longest / shortest_window));
+  return has_halves(slopes, begin) ? begin : slopes.index(longest / later_window);
 }
 
 }  // namespace

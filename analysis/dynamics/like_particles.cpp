@@ -56,7 +56,7 @@ template <int Dim>
 LikeParticles like_particles(const Configuration<Dim>& configuration) {
   std::vector<std::vector<std::size_t>> species(configuration.species_names.size());
   for (std::size_t i = 0; i < configuration.size(); ++i)
-    species[static_cast<std::size_t>(configuration.species[i])].push_back(i);
+    species.at(static_cast<std::size_t>(configuration.species[i])).push_back(i);
   Classes<Dim> classes(configuration);
   for (std::vector<std::size_t>& particles : species)
     if (!particles.empty()) classes.add_species(particles);

@@ -150,6 +150,20 @@ TEST(DiffusionCoefficient, TheWindowBeginsWhereParticlesHaveMovedByOne) {
   EXPECT_EQ(from(2), 27);
 }
 
+// Four points a decade: two on each side of the middle take a factor of nine, though m = 1 is later.
+TEST(DiffusionCoefficient, SparseTimesTakeALongerWindow) {
+  MeanSquareCurve curve;
+  for (int k = 0; k <= 8; ++k) {
+    curve.time.push_back(std::pow(10, k / 4.0));
+    curve.value.push_back(0.02 * curve.time.back());
+    curve.error.push_back(0.002 * curve.time.back());
+  }
+  curve.duration = 200;
+  const DiffusionCoefficient d = diffusion_coefficient(curve, 1);
+  EXPECT_NEAR(d.value, 0.01, 1e-12);
+  EXPECT_EQ(d.from, curve.time[5]);
+}
+
 TEST(DiffusionCoefficient, MotionThatIsNotDiffusiveHasNoneAndSaysWhy) {
   const auto reason = [](const MeanSquareCurve& curve) {
     const DiffusionCoefficient d = diffusion_coefficient(curve, 2);
