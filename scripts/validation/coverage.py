@@ -68,10 +68,13 @@ def parameters(name, seeds):
 def prepared(folder):
     """What the preparation of a job states with an error."""
     state = json.loads((folder / "prepare.json").read_text(encoding="utf-8"))
-    pressure = state["quality"]["reduced_pressure"]
+    report = state.get("quality")  # of a state in the plane; in space the summary itself
+    pressure = report["reduced_pressure"] if report else {"value": state["reduced_pressure"],
+                                                          "error": state["reduced_pressure_error"]}
     found = {"quality report: reduced_pressure": (pressure["value"], pressure["error"])}
-    if (mean := state["stages"][-1]["mean_packing_fraction"]) is not None:
-        found["compression: packing_fraction"] = mean, state["stages"][-1]["mean_packing_fraction_error"]
+    last = state["stages"][-1]
+    if (mean := last.get("mean_packing_fraction")) is not None:
+        found["compression: packing_fraction"] = mean, last["mean_packing_fraction_error"]
     return found
 
 
