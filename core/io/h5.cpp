@@ -14,13 +14,19 @@ namespace {
 
 static_assert(std::is_same_v<Id, hid_t>);
 
-constexpr hsize_t entries_per_chunk = 128;
-
 template <class T>
 Id native_type();
 template <>
 Id native_type<double>() {
   return H5T_NATIVE_DOUBLE;
+}
+template <>
+Id native_type<float>() {
+  return H5T_NATIVE_FLOAT;
+}
+template <>
+Id native_type<std::int16_t>() {
+  return H5T_NATIVE_INT16;
 }
 template <>
 Id native_type<std::int32_t>() {
@@ -44,6 +50,14 @@ Id stored_type();
 template <>
 Id stored_type<double>() {
   return H5T_IEEE_F64LE;
+}
+template <>
+Id stored_type<float>() {
+  return H5T_IEEE_F32LE;
+}
+template <>
+Id stored_type<std::int16_t>() {
+  return H5T_STD_I16LE;
 }
 template <>
 Id stored_type<std::int32_t>() {
@@ -244,18 +258,35 @@ void Dataset::resize(std::uint64_t frames) {
   check(H5Dset_extent(handle_.id(), sizes(extent)));
 }
 
-Dataset::FrameSpaces Dataset::frame_spaces(std::uint64_t frame, std::uint64_t count) const {
+std::uint64_t Dataset::frames_per_chunk() const {
+  const Check check(*file_, "inspect", name_);
+  const Handle creation(check(H5Dget_create_plist(handle_.id())));
+  if (check(H5Pget_layout(creation.id())) != H5D_CHUNKED) return 1;
+  Shape chunk(shape().size());
+  check(H5Pget_chunk(creation.id(), static_cast<int>(chunk.size()), sizes(chunk)));
+  return chunk.front();
+}
+
+std::size_t Dataset::bytes_per_number() const {
+  const Check check(*file_, "inspect", name_);
+  const Handle type(check(H5Dget_type(handle_.id())));
+  return check(H5Tget_size(type.id()));
+}
+
+Dataset::FrameSpaces Dataset::frame_spaces(std::uint64_t first, std::uint64_t count,
+                                           std::size_t values) const {
   Shape block = shape();
-  if (block.empty() || frame >= block[0])
-    throw_file_error(file_->path(), "access frame " + std::to_string(frame) + " of", name_,
-                     "it has " + std::to_string(block.empty() ? 0 : block[0]) + " frames");
-  block[0] = 1;
-  if (elements(block) != count)
-    throw_file_error(
-        file_->path(), "access frame " + std::to_string(frame) + " of", name_,
-        "a frame has " + std::to_string(elements(block)) + " values, not " + std::to_string(count));
+  const std::uint64_t frames = block.empty() ? 0 : block[0];
+  if (count > frames || first > frames - count)
+    throw_file_error(file_->path(), "access frame " + std::to_string(first + count - 1) + " of",
+                     name_, "it has " + std::to_string(frames) + " frames");
+  block[0] = count;
+  if (elements(block) != values)
+    throw_file_error(file_->path(), "access frame " + std::to_string(first) + " of", name_,
+                     std::to_string(count) + " frames have " + std::to_string(elements(block)) +
+                         " values, not " + std::to_string(values));
   Shape start(block.size(), 0);
-  start[0] = frame;
+  start[0] = first;
   const Check check(*file_, "access", name_);
   Handle space(check(H5Dget_space(handle_.id())));
   check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, sizes(start), nullptr, sizes(block),
@@ -265,17 +296,17 @@ Dataset::FrameSpaces Dataset::frame_spaces(std::uint64_t frame, std::uint64_t co
 }
 
 template <class T>
-void Dataset::write_frame(std::uint64_t frame, std::span<const T> values) {
-  const FrameSpaces spaces = frame_spaces(frame, values.size());
+void Dataset::write_frames(std::uint64_t first, std::uint64_t count, std::span<const T> values) {
+  const FrameSpaces spaces = frame_spaces(first, count, values.size());
   const Check check(*file_, "write", name_);
   check(H5Dwrite(handle_.id(), native_type<T>(), spaces.memory.id(), spaces.file.id(), H5P_DEFAULT,
                  values.data()));
 }
 
 template <class T>
-void Dataset::read_frame(std::uint64_t frame, std::span<T> values) const {
-  const FrameSpaces spaces = frame_spaces(frame, values.size());
-  require_checksums(*file_, handle_, name_, shape(), frame, frame);
+void Dataset::read_frames(std::uint64_t first, std::uint64_t count, std::span<T> values) const {
+  const FrameSpaces spaces = frame_spaces(first, count, values.size());
+  require_checksums(*file_, handle_, name_, shape(), first, first + count - 1);
   const Check check(*file_, "read", name_);
   check(H5Dread(handle_.id(), native_type<T>(), spaces.memory.id(), spaces.file.id(), H5P_DEFAULT,
                 values.data()));
@@ -409,30 +440,29 @@ Dataset Group::create_enumeration(const std::string& name, std::span<const std::
   for (std::int32_t value = 0; value < static_cast<std::int32_t>(names.size()); ++value)
     check(H5Tenum_insert(type.id(), names[value].c_str(), &value));
   const Shape shape{values.size()};
-  Dataset dataset = create(check, name, type.id(), create_space(check, shape),
-                           with_checksum<std::int32_t>(check, shape, type.id()));
+  const Handle properties = with_checksum<std::int32_t>(check, shape, type.id());
+  // A checksum of zeros is zero. Lost bytes of a compressed array are not taken for the first of the names.
+  if (!values.empty()) check(H5Pset_deflate(properties.id(), 1));
+  Dataset dataset = create(check, name, type.id(), create_space(check, shape), properties);
   check(H5Dwrite(dataset.handle_.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   return dataset;
 }
 
 template <class T>
 Dataset Group::create_series(const std::string& name, const Shape& frame_shape,
-                             SeriesStorage storage) {
+                             std::uint64_t frames_per_chunk) {
   Shape extent{0};
   extent.insert(extent.end(), frame_shape.begin(), frame_shape.end());
   Shape limit = extent, chunk = extent;
   limit[0] = H5S_UNLIMITED;
-  chunk[0] = storage == SeriesStorage::shared_chunks ? entries_per_chunk : 1;
+  chunk[0] = frames_per_chunk;
+  if (chunk.size() > 1) chunk[1] = std::min(chunk[1], rows_per_chunk);
 
   const Check check(*file_, "create dataset", path_of(name));
   const int rank = static_cast<int>(extent.size());
   const Handle space(check(H5Screate_simple(rank, sizes(extent), sizes(limit))));
   const Handle properties(check(H5Pcreate(H5P_DATASET_CREATE)));
   check(H5Pset_chunk(properties.id(), rank, sizes(chunk)));
-  if (storage == SeriesStorage::compressed_chunks) {
-    check(H5Pset_shuffle(properties.id()));
-    check(H5Pset_deflate(properties.id(), 1));
-  }
   check(H5Pset_fletcher32(properties.id()));
   mark_missing<T>(check, properties, native_type<T>());
   return create(check, name, stored_type<T>(), space, properties);
@@ -493,12 +523,14 @@ void File::reopen() {
   template T Object::number_attribute<T>(const std::string&) const;                              \
   template std::vector<T> Dataset::read<T>() const;                                              \
   template void Dataset::write<T>(std::span<const T>);                                           \
-  template void Dataset::write_frame<T>(std::uint64_t, std::span<const T>);                      \
-  template void Dataset::read_frame<T>(std::uint64_t, std::span<T>) const;                       \
+  template void Dataset::write_frames<T>(std::uint64_t, std::uint64_t, std::span<const T>);      \
+  template void Dataset::read_frames<T>(std::uint64_t, std::uint64_t, std::span<T>) const;       \
   template Dataset Group::create_array<T>(const std::string&, const Shape&, std::span<const T>); \
-  template Dataset Group::create_series<T>(const std::string&, const Shape&, SeriesStorage);
+  template Dataset Group::create_series<T>(const std::string&, const Shape&, std::uint64_t);
 
 VITREL_H5_INSTANTIATE(double)
+VITREL_H5_INSTANTIATE(float)
+VITREL_H5_INSTANTIATE(std::int16_t)
 VITREL_H5_INSTANTIATE(std::int32_t)
 VITREL_H5_INSTANTIATE(std::int64_t)
 VITREL_H5_INSTANTIATE(std::uint64_t)

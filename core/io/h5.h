@@ -21,7 +21,8 @@
 /// nothing more is written, and later operations on that file throw again. A file may be read while another process
 /// writes it: every operation sees the content of the same commit, or throws ChangedFile.
 ///
-/// T is one of double, int32_t, int64_t, uint64_t, uint8_t; numbers are stored little-endian.
+/// T is one of double, float, int16_t, int32_t, int64_t, uint64_t, uint8_t; numbers are stored little-endian, and converted
+/// to the type of the array.
 namespace vitrel::h5 {
 
 using Id = std::int64_t;
@@ -99,13 +100,17 @@ class Dataset : public Object {
   void write(std::span<const T> values);
   std::string read_text() const;
 
-  /// Cuts or extends a series to `frames` frames; new ones are zero until written.
+  /// Cuts or extends a series to `frames` frames; new ones are missing until written.
   void resize(std::uint64_t frames);
+  /// Frames of the series from `first` on; `values` must have their size. Whole chunks at a time are fastest.
   template <class T>
-  void write_frame(std::uint64_t frame, std::span<const T> values);
-  /// `values` must have the size of one frame.
+  void write_frames(std::uint64_t first, std::uint64_t count, std::span<const T> values);
   template <class T>
-  void read_frame(std::uint64_t frame, std::span<T> values) const;
+  void read_frames(std::uint64_t first, std::uint64_t count, std::span<T> values) const;
+  /// How many frames of a series lie together; 1 of an array that is stored otherwise.
+  std::uint64_t frames_per_chunk() const;
+  /// In the file.
+  std::size_t bytes_per_number() const;
 
   /// The names of an enumerated type indexed by value 0, 1, 2 …; empty if the array holds plain
   /// numbers. Values without a name get an empty one.
@@ -118,16 +123,11 @@ class Dataset : public Object {
   struct FrameSpaces {
     Handle file, memory;
   };
-  FrameSpaces frame_spaces(std::uint64_t frame, std::uint64_t count) const;
+  FrameSpaces frame_spaces(std::uint64_t first, std::uint64_t count, std::size_t values) const;
 };
 
-/// How the frames of a series are stored; all have a checksum. Chunks are written once or keep their size and
-/// place in the file, so that adding a frame never moves the earlier ones.
-enum class SeriesStorage {
-  shared_chunks,     ///< many small frames per chunk
-  plain_chunks,      ///< one frame per chunk: real numbers, of which compression would save a tenth
-  compressed_chunks  ///< one frame per chunk, shuffled and deflated: mostly zeros or small integers
-};
+/// Of particles, in a chunk: who follows a few of them through all frames reads little in vain.
+inline constexpr std::uint64_t rows_per_chunk = 1024;
 
 class Group : public Object {
  public:
@@ -149,9 +149,12 @@ class Group : public Object {
   /// An array of names out of `names`, stored as the index into it.
   Dataset create_enumeration(const std::string& name, std::span<const std::string> names,
                              std::span<const std::int32_t> values);
-  /// A series with no frame yet.
+  /// A series with no frame yet, in chunks of so many frames and, of the first direction of a frame, of up to
+  /// rows_per_chunk entries. They have checksums, and keep their size and place, so that adding a frame never moves the
+  /// earlier ones.
   template <class T>
-  Dataset create_series(const std::string& name, const Shape& frame_shape, SeriesStorage storage);
+  Dataset create_series(const std::string& name, const Shape& frame_shape,
+                        std::uint64_t frames_per_chunk);
   void remove(const std::string& name);
   /// A second name for a member of the file; `target` is its path from the root.
   void link(const std::string& name, const std::string& target);

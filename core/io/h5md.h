@@ -26,9 +26,11 @@
 ///     particles/all/
 ///       position, image             wrapped, box centred at the origin;
 ///                                   unwrapped = position + image · edges
-///       orientation                 quaternion w, x, y, z; in 2-D (cos θ/2, 0, 0, sin θ/2)
-///       angle                       θ, unwrapped, radians; in 2-D only
-///       velocity, angular_velocity  if asked for, both in the axes of space
+///       angle                       in 2-D: θ, unwrapped, radians
+///       orientation                 in 3-D: quaternion w, x, y, z; in 2-D, as (cos θ/2, 0, 0, sin θ/2), where
+///                                   turns are not counted, and in files up to version 0.2
+///       velocity, angular_velocity  if asked for, both in the axes of space; in 2-D ω is one number (up to
+///                                   version 0.2 three)
 ///       box/edges                   rows are the cell vectors
 ///       species, id, mass, semiaxes the same in all frames
 ///     observables/<name>            one number per frame
@@ -41,8 +43,10 @@
 /// Velocities of soft particles in contact are those of after it: a run that starts from a frame finds
 /// no contacts under way, but the pairs that are still close.
 ///
-/// Every {step, time} is one dataset under many names. All numbers are stored as they are in
-/// memory, so a wrapped configuration read back is bit-identical.
+/// Every {step, time} is one dataset under many names. Numbers are stored as they are in memory, so a wrapped
+/// configuration read back is bit-identical; in single precision they have 24 bits, of which an unwrapped angle also needs
+/// some for its turns. Images have 16 bits until a particle needs 32. Several frames, and up to 1024 particles, lie together
+/// in a chunk.
 namespace vitrel {
 
 using Observables = std::map<std::string, double>;
@@ -51,6 +55,8 @@ struct TrajectoryOptions {
   bool velocities = false;                    ///< store velocity and angular velocity
   bool close_pairs = false;                   ///< of soft particles
   bool images = true, angles = true;          ///< false where a file of another program has none
+  bool single_precision = false;              ///< of all numbers of particles: half the size
+  std::uint64_t expected_frames = 0;          ///< chunks hold no more; 0: unknown
   std::vector<std::string> observables = {};  ///< names of the numbers that come with every frame
   bool overwrite = false;                     ///< replace an existing file instead of refusing
 };
@@ -60,9 +66,12 @@ template <int Dim>
 void write_state(const std::filesystem::path& path, const Configuration<Dim>& configuration,
                  const Provenance& provenance, bool overwrite = false);
 
-/// Writes a trajectory frame by frame. `write` saves all frames that are not in the file yet if half a second has passed
-/// since it last did; they reach the file whole or not at all. A process killed at any moment, or a full disk, leaves the
-/// frames that were saved. Other processes may read the file meanwhile. Throws FileError if the file cannot be written.
+/// Writes a trajectory frame by frame. Frames are collected until they fill chunks of the file. `write` saves all frames that
+/// are not in the file yet if half a second has passed since it last did; they reach the file whole or not at all. A process
+/// killed at any moment, or a full disk, leaves the frames that were saved. Other processes may read the file meanwhile.
+/// Throws FileError if the file cannot be written.
+///
+/// Memory for up to 16 frames, fewer above 32 768 particles.
 class TrajectoryWriter {
  public:
   /// A new file without frames; it appears under its name only when it is readable. `configuration`
@@ -73,6 +82,10 @@ class TrajectoryWriter {
                                  const Configuration<Dim>& configuration,
                                  const Provenance& provenance,
                                  const TrajectoryOptions& options = {});
+  TrajectoryWriter(TrajectoryWriter&&) = default;
+  TrajectoryWriter& operator=(TrajectoryWriter&&) = default;
+  /// Closes too, but cannot report a failure.
+  ~TrajectoryWriter();
   /// Continues a file after its first `frames_to_keep` frames; later ones are dropped. FileError if
   /// it has fewer.
   static TrajectoryWriter append_to(const std::filesystem::path& path,
@@ -90,9 +103,9 @@ class TrajectoryWriter {
   /// Saves all frames against a kill of the process.
   void commit();
   /// Waits until the disk has all frames: a checkpoint that counts them may then be saved.
-  void synchronize() { file_.synchronize(); }
-  /// The same, and closes; the destructor closes too, but cannot report a failure.
-  void close() { file_.close(); }
+  void synchronize();
+  /// The same, and closes.
+  void close();
 
   std::uint64_t frames() const { return frames_; }
   std::vector<std::string> observable_names() const;
@@ -104,35 +117,65 @@ class TrajectoryWriter {
                           const Configuration<Dim>& configuration, const Provenance& provenance,
                           bool overwrite);
 
-  template <int Dim>
-  void check(const Configuration<Dim>& configuration, const Observables& observables) const;
-  void resize(std::uint64_t frames);
-  template <int Dim>
-  void write_particles(const Configuration<Dim>& configuration);
+  /// A series and what is to be added to it.
+  template <class T>
+  struct Series {
+    h5::Dataset dataset;
+    std::vector<T> added = {};
+    std::uint64_t frames = 0;  ///< of those
+
+    /// Room for the numbers of one more frame.
+    std::span<T> add_frame(std::size_t numbers);
+    void add(std::span<const T> frame);
+    /// Behind what the file has.
+    void write();
+  };
+  using Numbers = Series<double>;
 
   /// Of a frame as many rows as it has close pairs, after those of the frames before.
   struct ClosePairs {
-    h5::Dataset end, pair, lag, distance;
+    Series<std::int64_t> end, pair;
+    Series<std::int32_t> lag;
+    Numbers distance;
     std::int64_t rows = 0;
 
-    void resize(std::int64_t new_rows);
     /// Those of the first frames.
     void keep(std::uint64_t frames);
     template <int Dim>
-    void write(std::uint64_t frame, const Configuration<Dim>& configuration);
+    void add(const Configuration<Dim>& configuration);
   };
+
+  template <class T>
+  Series<T> required(const std::string& name) const;
+  template <class T>
+  std::optional<Series<T>> existing(const std::string& element) const;
+  template <int Dim>
+  void check(const Configuration<Dim>& configuration, const Observables& observables) const;
+  void keep(std::uint64_t frames);
+  template <int Dim>
+  void add_particles(const Configuration<Dim>& configuration);
+  template <int Dim>
+  void add_places(const Configuration<Dim>& configuration);
+  template <int Dim>
+  void add_velocities(const Configuration<Dim>& configuration);
+  void widen_images();
+  void write_added();
+  /// Calls visit(series) for all that have one entry per frame.
+  template <class Visit>
+  void for_each_series(Visit&& visit);
 
   h5::File file_;
   std::chrono::steady_clock::time_point last_commit_;
   std::size_t particles_ = 0;
-  std::uint64_t frames_ = 0;
+  std::uint64_t frames_ = 0, frames_at_once_ = 1;
   int dimension_ = 0;
-  h5::Dataset step_, time_, edges_, position_, orientation_;
-  std::optional<h5::Dataset> image_;
-  std::optional<h5::Dataset> angle_;  ///< of two dimensions
-  std::optional<h5::Dataset> velocity_, angular_velocity_;
+  Series<std::int64_t> step_;
+  Numbers time_, edges_, position_;
+  std::optional<Series<std::int32_t>> image_;
+  std::int32_t largest_image_ = 0;  ///< that the file can hold
+  std::optional<Numbers> orientation_, angle_, velocity_, angular_velocity_;
   std::optional<ClosePairs> close_pairs_;
-  std::map<std::string, h5::Dataset> observables_;
+  std::map<std::string, Numbers> observables_;
 };
 
 /// Writes every frame it is shown, with the observables that `measure` gives for it.
@@ -180,10 +223,12 @@ class TrajectoryReader {
 
   template <int Dim = 2>
   Configuration<Dim> read(std::uint64_t frame) const;
-  /// The same into an existing configuration, whose memory is used again.
+  /// The same into a configuration that is empty, or that another frame of this file was read into.
   template <int Dim>
   void read(std::uint64_t frame, Configuration<Dim>& configuration) const;
 
+  /// Whether positions are rounded to single precision.
+  bool has_single_precision() const;
   /// Whether the file has the element "velocity", "image", … of the particles.
   bool has(const std::string& name) const;
 
@@ -229,8 +274,21 @@ class TrajectoryReader {
   const h5::Dataset& element(const std::string& name, const std::string& meaning) const;
   template <int Dim>
   bool has_no_orientations(const Configuration<Dim>& configuration) const;
-  std::vector<double> frame_values(const std::string& name, const std::string& meaning,
-                                   std::uint64_t frame, std::size_t per_particle) const;
+  /// Consecutive frames of a dataset, so that every chunk of the file is read once.
+  struct Block {
+    std::uint64_t first = 0, frames = 0;
+    std::size_t numbers = 0;  ///< of a frame
+    std::vector<double> values = {};
+  };
+  const double* frame_of(const h5::Dataset& values, std::uint64_t frame) const;
+  /// One row for every particle.
+  struct Rows {
+    const double* values = nullptr;
+    std::size_t numbers = 0;  ///< of a row
+    const double* operator[](std::size_t i) const { return values + i * numbers; }
+  };
+  Rows rows(const std::string& name, const std::string& meaning, std::uint64_t frame,
+            std::size_t numbers) const;
   template <int Dim>
   void read_box(std::uint64_t frame, Configuration<Dim>& configuration) const;
   template <int Dim>
@@ -259,6 +317,7 @@ class TrajectoryReader {
   std::variant<Configuration2, Configuration3> fixed_;   ///< what all frames share
   mutable std::map<std::string, h5::Dataset> datasets_;  ///< those in use stay open
   mutable std::map<std::string, bool> present_;          ///< these datasets, or not; slow to ask
+  mutable std::map<std::string, Block> blocks_;          ///< by dataset, around the frame read last
 };
 
 /// The last frame of a trajectory. FileError if there is none.

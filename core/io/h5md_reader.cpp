@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "core/elementary.h"
 #include "core/error.h"
@@ -44,6 +46,7 @@ std::invoke_result_t<Read> TrajectoryReader::consistently(Read&& read) const {
       },
       [this] {
         datasets_.clear();
+        blocks_.clear();
         root_.reset();
       });
 }
@@ -209,8 +212,8 @@ void TrajectoryReader::read(std::uint64_t frame, Configuration<Dim>& configurati
   if (frame >= frames())
     fail("there is no frame " + std::to_string(frame) + ": it has " + std::to_string(frames()) +
          ", counted from 0");
+  if (configuration.size() != particles()) configuration = std::get<Configuration<Dim>>(fixed_);
   consistently([&] {
-    configuration = std::get<Configuration<Dim>>(fixed_);
     configuration.time = times_[frame];
     read_box(frame, configuration);
     read_positions(frame, configuration);
@@ -236,26 +239,42 @@ const h5::Dataset& TrajectoryReader::element(const std::string& name,
   return values;
 }
 
-/// A frame of an element with at least `per_particle` numbers per particle; others are cut off.
-std::vector<double> TrajectoryReader::frame_values(const std::string& name,
-                                                   const std::string& meaning, std::uint64_t frame,
-                                                   std::size_t per_particle) const {
+/// The numbers of a frame. They are finite.
+const double* TrajectoryReader::frame_of(const h5::Dataset& values, std::uint64_t frame) const {
+  Block& block = blocks_[values.name()];
+  if (frame < block.first || frame >= block.first + block.frames) {
+    const h5::Shape shape = values.shape();
+    if (shape.at(0) < frames())
+      fail("the dataset " + values.name() + " has fewer frames than step");
+    const std::uint64_t together = values.frames_per_chunk();
+    block.frames = 0;
+    block.first = frame / together * together;
+    block.numbers =
+        std::accumulate(shape.begin() + 1, shape.end(), std::size_t{1}, std::multiplies());
+    const std::uint64_t count = std::min(together, frames() - block.first);
+    block.values.resize(count * block.numbers);
+    values.read_frames<double>(block.first, count, block.values);
+    const auto strange =
+        std::ranges::find_if_not(block.values, [](double x) { return std::isfinite(x); });
+    if (strange != block.values.end())
+      fail("the dataset " + values.name() + " has numbers that are not finite in frame " +
+           std::to_string(block.first + static_cast<std::size_t>(strange - block.values.begin()) /
+                                            block.numbers));
+    block.frames = count;
+  }
+  return block.values.data() + (frame - block.first) * block.numbers;
+}
+
+/// Of an element with at least so many numbers per particle.
+TrajectoryReader::Rows TrajectoryReader::rows(const std::string& name, const std::string& meaning,
+                                              std::uint64_t frame, std::size_t numbers) const {
   const h5::Dataset& values = element(name, meaning);
   const h5::Shape shape = values.shape();
   const std::size_t stored = shape.size() == 3 ? shape.back() : 1;
-  std::vector<double> numbers(particles() * stored);
-  values.read_frame<double>(frame, numbers);
-  if (stored < per_particle)
-    fail("the dataset " + values.name() + " should have " + std::to_string(per_particle) +
+  if (stored < numbers)
+    fail("the dataset " + values.name() + " should have " + std::to_string(numbers) +
          " numbers per particle");
-  std::vector<double> kept;
-  kept.reserve(particles() * per_particle);
-  for (std::size_t i = 0; i < particles(); ++i)
-    kept.insert(kept.end(), &numbers[i * stored], &numbers[i * stored] + per_particle);
-  if (!std::all_of(kept.begin(), kept.end(), [](double x) { return std::isfinite(x); }))
-    fail("the dataset " + values.name() + " has numbers that are not finite in frame " +
-         std::to_string(frame));
-  return kept;
+  return {frame_of(values, frame), stored};
 }
 
 template <int Dim>
@@ -264,11 +283,10 @@ void TrajectoryReader::read_box(std::uint64_t frame, Configuration<Dim>& configu
   const h5::Shape shape = edges.shape();
   if (shape.size() != 3 || shape[1] != 3 || shape[2] != 3)
     fail("the dataset " + edges.name() + " should hold three cell vectors per frame");
-  std::array<double, 9> values;
-  edges.read_frame<double>(frame, values);
+  const double* values = frame_of(edges, frame);
   Vec<Dim> lengths;
   for (std::size_t k = 0; k < Dim; ++k) lengths[k] = values[4 * k];
-  if (!lengths.allFinite() || lengths.minCoeff() <= 0)
+  if (lengths.minCoeff() <= 0)
     fail(fmt::format("the box of frame {} is {}, but its edges should be finite and above 0", frame,
                      fmt::join(lengths, " × ")));
   configuration.box = PeriodicBox<Dim>(lengths);
@@ -316,18 +334,19 @@ void TrajectoryReader::require_near_box(std::uint64_t frame, std::size_t i,
 template <int Dim>
 void TrajectoryReader::read_positions(std::uint64_t frame,
                                       Configuration<Dim>& configuration) const {
-  const std::vector<double> positions = frame_values("position", "the coordinates", frame, 3);
-  std::vector<double> images(particles() * Dim);
-  if (has("image")) images = frame_values("image", "the box crossings", frame, Dim);
-  if (std::ranges::any_of(images, [](double n) { return std::abs(n) > max_box_crossings; }))
-    fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
-         std::to_string(frame));
+  const Rows positions = rows("position", "the coordinates", frame, 3);
+  const bool has_images = has("image");
+  const Rows images = has_images ? rows("image", "the box crossings", frame, Dim) : Rows{};
   for (std::size_t i = 0; i < particles(); ++i) {
-    if (Dim == 2 && positions[3 * i + 2] != 0)
+    if (Dim == 2 && positions[i][2] != 0)
       fail("particle " + std::to_string(i) + " has z ≠ 0, but the system is two-dimensional");
-    configuration.position[i] = Vec<Dim>(&positions[3 * i]);
+    configuration.position[i] = Vec<Dim>(positions[i]);
     require_near_box(frame, i, configuration);
-    configuration.image[i] = Vec<Dim>(&images[Dim * i]).template cast<std::int32_t>();
+    const Vec<Dim> image = has_images ? Vec<Dim>(images[i]) : Vec<Dim>(Vec<Dim>::Zero());
+    if (image.cwiseAbs().maxCoeff() > max_box_crossings)
+      fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
+           std::to_string(frame));
+    configuration.image[i] = image.template cast<std::int32_t>();
     configuration.box.wrap_if_outside(configuration.position[i], configuration.image[i]);
   }
 }
@@ -341,12 +360,13 @@ bool TrajectoryReader::has_no_orientations(const Configuration<Dim>& configurati
 void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration2& configuration) const {
   if (has_no_orientations(configuration)) return;
   if (has("angle") || !has("orientation")) {
-    configuration.angle = frame_values("angle", "the angle of every particle in radians", frame, 1);
+    const Rows angles = rows("angle", "the angle of every particle in radians", frame, 1);
+    for (std::size_t i = 0; i < particles(); ++i) configuration.angle[i] = *angles[i];
     return;
   }
-  const std::vector<double> quaternions = frame_values("orientation", "quaternions", frame, 4);
+  const Rows quaternions = rows("orientation", "quaternions", frame, 4);
   for (std::size_t i = 0; i < particles(); ++i) {
-    const double* q = &quaternions[4 * i];
+    const double* q = quaternions[i];
     if (q[1] != 0 || q[2] != 0)
       fail("particle " + std::to_string(i) +
            " is turned out of the plane, but the system is two-dimensional");
@@ -356,9 +376,9 @@ void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration2& co
 
 void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration3& configuration) const {
   if (has_no_orientations(configuration)) return;
-  const std::vector<double> quaternions = frame_values("orientation", "quaternions", frame, 4);
+  const Rows quaternions = rows("orientation", "quaternions", frame, 4);
   for (std::size_t i = 0; i < particles(); ++i) {
-    const double* q = &quaternions[4 * i];
+    const double* q = quaternions[i];
     try {
       configuration.orientation[i] = unit_quaternion(Quaternion(q[0], q[1], q[2], q[3]), i);
     } catch (const UserError& error) {
@@ -371,17 +391,16 @@ template <int Dim>
 void TrajectoryReader::read_velocities(std::uint64_t frame,
                                        Configuration<Dim>& configuration) const {
   if (has("velocity")) {
-    const std::vector<double> v = frame_values("velocity", "the velocities", frame, Dim);
-    for (std::size_t i = 0; i < particles(); ++i) configuration.velocity[i] = Vec<Dim>(&v[Dim * i]);
+    const Rows v = rows("velocity", "the velocities", frame, Dim);
+    for (std::size_t i = 0; i < particles(); ++i) configuration.velocity[i] = Vec<Dim>(v[i]);
   }
   if (!has("angular_velocity")) return;
-  const std::vector<double> w =
-      frame_values("angular_velocity", "the angular velocities", frame, 3);
+  const Rows w = rows("angular_velocity", "the angular velocities", frame, Dim == 2 ? 1 : 3);
   for (std::size_t i = 0; i < particles(); ++i) {
     if constexpr (Dim == 2)
-      configuration.angular_velocity[i] = w[3 * i + 2];
+      configuration.angular_velocity[i] = w[i][w.numbers - 1];  // about z, the last of three
     else
-      configuration.angular_velocity[i] = Vec3(&w[3 * i]);
+      configuration.angular_velocity[i] = Vec3(w[i]);
   }
 }
 
@@ -393,36 +412,45 @@ void TrajectoryReader::read_close_pairs(std::uint64_t frame,
   const auto column = [&](const char* name) -> const h5::Dataset& {
     return dataset(group + name, "the close pairs of every frame");
   };
-  const h5::Dataset &end = column("end"), &pairs = column("pair"), &lags = column("lag"),
-                    &distances = column("distance");
-  std::int64_t row = 0, last = 0;
-  if (frame > 0) end.read_frame<std::int64_t>(frame - 1, {&row, 1});
-  end.read_frame<std::int64_t>(frame, {&last, 1});
-  for (; row < last; ++row) {
-    const auto k = static_cast<std::uint64_t>(row);
-    std::array<std::int64_t, 2> pair;
-    std::array<std::int32_t, 3> lag;
-    double distance;
-    pairs.read_frame<std::int64_t>(k, pair);
-    lags.read_frame<std::int32_t>(k, lag);
-    distances.read_frame<double>(k, {&distance, 1});
+  configuration.close_pairs.clear();
+  const h5::Dataset& end = column("end");
+  std::int64_t first = 0, last = 0;
+  if (frame > 0) end.read_frames<std::int64_t>(frame - 1, 1, {&first, 1});
+  end.read_frames<std::int64_t>(frame, 1, {&last, 1});
+  if (first < 0 || last <= first) return;
+  const auto begin = static_cast<std::uint64_t>(first),
+             count = static_cast<std::uint64_t>(last - first);
+  std::vector<std::int64_t> pairs(2 * count);
+  std::vector<std::int32_t> lags(3 * count);
+  std::vector<double> distances(count);
+  column("pair").template read_frames<std::int64_t>(begin, count, pairs);
+  column("lag").template read_frames<std::int32_t>(begin, count, lags);
+  column("distance").template read_frames<double>(begin, count, distances);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::int64_t* const pair = &pairs[2 * k];
     const auto n = static_cast<std::int64_t>(particles());
-    if (pair[0] < 0 || pair[0] > pair[1] || pair[1] >= n || !(distance > 0))
+    if (pair[0] < 0 || pair[0] > pair[1] || pair[1] >= n || !(distances[k] > 0))
       fail(
           fmt::format("row {} of {}pair should be two particles, i ≤ j < {}, at a distance above 0",
-                      row, group, n));
+                      begin + k, group, n));
     const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
     Shift<Dim> shift;
     for (int axis = 0; axis < Dim; ++axis) {
-      const std::int64_t boxes = std::int64_t{lag[static_cast<std::size_t>(axis)]} -
+      const std::int64_t boxes = std::int64_t{lags[3 * k + static_cast<std::size_t>(axis)]} -
                                  configuration.image[i][axis] + configuration.image[j][axis];
       if (static_cast<double>(std::abs(boxes)) > 2 * tolerance::max_box_lengths)
         fail(fmt::format("row {} of {}lag should be the shift between two particles that are close",
-                         row, group));
+                         begin + k, group));
       shift[axis] = static_cast<std::int32_t>(boxes);
     }
-    configuration.close_pairs.push_back({{i, j, shift}, distance});
+    configuration.close_pairs.push_back({{i, j, shift}, distances[k]});
   }
+}
+
+bool TrajectoryReader::has_single_precision() const {
+  return consistently([this] {
+    return element("position", "the coordinates").bytes_per_number() == sizeof(float);
+  });
 }
 
 bool TrajectoryReader::has(const std::string& name) const {

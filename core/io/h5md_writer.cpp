@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/elementary.h"
 #include "core/error.h"
@@ -18,9 +20,16 @@ const std::string all = "particles/all";
 /// The z edge of the box of a two-dimensional system, which means nothing but must not be 0.
 constexpr double height = 1;
 
-constexpr auto shared = h5::SeriesStorage::shared_chunks;
-constexpr auto plain = h5::SeriesStorage::plain_chunks;
-constexpr auto compressed = h5::SeriesStorage::compressed_chunks;
+/// Of one number, or a few.
+constexpr std::uint64_t entries_per_chunk = 128;
+
+/// As many as make chunks of some hundred kilobytes, or fewer if they took more than some ten megabytes of memory.
+std::uint64_t frames_per_chunk(std::uint64_t particles) {
+  constexpr std::uint64_t most_at_once = std::uint64_t{1} << 19, in_chunk = std::uint64_t{1} << 14;
+  if (particles >= h5::rows_per_chunk)
+    return std::clamp<std::uint64_t>(most_at_once / particles, 1, in_chunk / h5::rows_per_chunk);
+  return std::min(entries_per_chunk, in_chunk / std::max<std::uint64_t>(1, particles));
+}
 
 std::string series_path(const std::string& element) {
   return all + '/' + element + "/value";
@@ -29,18 +38,11 @@ std::string series_path(const std::string& element) {
 /// A series `element`/{step, time, value} that shares the position's step and time.
 template <class T>
 void create_element(h5::Group& parent, const std::string& element, const h5::Shape& frame_shape,
-                    h5::SeriesStorage storage) {
+                    std::uint64_t frames) {
   h5::Group group = parent.create_group(element);
-  group.create_series<T>("value", frame_shape, storage);
+  group.create_series<T>("value", frame_shape, frames);
   group.link("step", all + "/position/step");
   group.link("time", all + "/position/time");
-}
-
-void create_position(h5::Group& particles, std::uint64_t n) {
-  h5::Group position = particles.create_group("position");
-  position.create_series<std::int64_t>("step", {}, shared);
-  position.create_series<double>("time", {}, shared);
-  position.create_series<double>("value", {n, 3}, plain);
 }
 
 void create_box(h5::Group& particles, int dimension) {
@@ -49,26 +51,49 @@ void create_box(h5::Group& particles, int dimension) {
   const std::array<std::string, 3> boundary{"periodic", "periodic",
                                             dimension == 3 ? "periodic" : "none"};
   box.set_attribute("boundary", boundary, 8);
-  create_element<double>(box, "edges", {3, 3}, shared);
+  create_element<double>(box, "edges", {3, 3}, entries_per_chunk);
 }
 
-/// Adds the components of a vector, as three: in two dimensions the last is 0.
+/// What every frame says of the particles, in real numbers of type T.
+template <class T>
+void create_elements(h5::Group& particles, std::uint64_t n, int dimension,
+                     const TrajectoryOptions& options) {
+  std::uint64_t frames = frames_per_chunk(n);
+  if (options.expected_frames > 0) frames = std::min(frames, options.expected_frames);
+  const bool has_angles = dimension == 2 && options.angles;
+  h5::Group position = particles.create_group("position");
+  position.create_series<std::int64_t>("step", {}, entries_per_chunk);
+  position.create_series<double>("time", {}, entries_per_chunk);
+  position.create_series<T>("value", {n, 3}, frames);
+  create_box(particles, dimension);
+  if (options.images) create_element<std::int16_t>(particles, "image", {n, 3}, frames);
+  if (has_angles)
+    create_element<T>(particles, "angle", {n}, frames);
+  else
+    create_element<T>(particles, "orientation", {n, 4}, frames);
+  if (!options.velocities) return;
+  create_element<T>(particles, "velocity", {n, 3}, frames);
+  create_element<T>(particles, "angular_velocity", dimension == 2 ? h5::Shape{n} : h5::Shape{n, 3},
+                    frames);
+}
+
+/// The components of a vector, as three: in two dimensions the last is 0.
 template <class T, int Dim>
-void append(std::vector<T>& row, const Eigen::Matrix<T, Dim, 1>& vector) {
-  row.insert(row.end(), vector.data(), vector.data() + Dim);
-  row.insert(row.end(), 3 - Dim, T{0});
+void put(T* row, const Eigen::Matrix<T, Dim, 1>& vector) {
+  for (int k = 0; k < 3; ++k) row[k] = k < Dim ? vector[k < Dim ? k : 0] : T{0};
 }
-void append(std::vector<double>& row, double angular_velocity) {
-  append(row, Vec3(0, 0, angular_velocity));
+
+Vec3 semi_axes(const Ellipse& shape) {
+  return {shape.a, shape.b, 0};
 }
-void append(std::vector<double>& row, const Ellipse& shape) {
-  append(row, Vec2(shape.a, shape.b));
+Vec3 semi_axes(const Ellipsoid& shape) {
+  return shape.semi_axes;
 }
-void append(std::vector<double>& row, const Ellipsoid& shape) {
-  append(row, shape.semi_axes);
+Vec3 in_space(double angular_velocity) {
+  return {0, 0, angular_velocity};
 }
-void append(std::vector<double>& row, const Quaternion& q) {
-  row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
+Vec3 in_space(const Vec3& angular_velocity) {
+  return angular_velocity;
 }
 
 Quaternion orientation(const Configuration2& configuration, std::size_t i) {
@@ -82,10 +107,10 @@ Quaternion orientation(const Configuration3& configuration, std::size_t i) {
 
 void create_close_pairs(h5::Group& particles) {
   h5::Group pairs = particles.create_group("close_pairs");
-  pairs.create_series<std::int64_t>("end", {}, shared);
-  pairs.create_series<std::int64_t>("pair", {2}, shared);
-  pairs.create_series<std::int32_t>("lag", {3}, shared);
-  pairs.create_series<double>("distance", {}, shared);
+  pairs.create_series<std::int64_t>("end", {}, entries_per_chunk);
+  pairs.create_series<std::int64_t>("pair", {2}, entries_per_chunk);
+  pairs.create_series<std::int32_t>("lag", {3}, entries_per_chunk);
+  pairs.create_series<double>("distance", {}, entries_per_chunk);
 }
 
 template <int Dim>
@@ -93,8 +118,8 @@ void create_fixed_arrays(h5::Group& particles, const Configuration<Dim>& configu
   const std::uint64_t n = configuration.size();
   std::vector<std::int64_t> id(n);
   std::iota(id.begin(), id.end(), 0);
-  std::vector<double> semiaxes;
-  for (const Solid<Dim>& shape : configuration.shape) append(semiaxes, shape);
+  std::vector<double> semiaxes(3 * n);
+  for (std::size_t i = 0; i < n; ++i) put(&semiaxes[3 * i], semi_axes(configuration.shape[i]));
   particles.create_enumeration("species", configuration.species_names, configuration.species);
   particles.create_array<std::int64_t>("id", {n}, id);
   particles.create_array<double>("mass", {n}, configuration.mass);
@@ -121,20 +146,15 @@ h5::File create_layout(const fs::path& path, const Configuration<Dim>& configura
   h5::Group root = file.root();
   create_h5md_group(root, provenance);
   h5::Group particles = root.create_group("particles").create_group("all");
-  create_position(particles, n);
-  create_box(particles, Dim);
-  if (options.images) create_element<std::int32_t>(particles, "image", {n, 3}, compressed);
-  create_element<double>(particles, "orientation", {n, 4}, plain);
-  if (Dim == 2 && options.angles) create_element<double>(particles, "angle", {n}, plain);
-  if (options.velocities) {
-    create_element<double>(particles, "velocity", {n, 3}, plain);
-    create_element<double>(particles, "angular_velocity", {n, 3}, Dim == 2 ? compressed : plain);
-  }
+  if (options.single_precision)
+    create_elements<float>(particles, n, Dim, options);
+  else
+    create_elements<double>(particles, n, Dim, options);
   if (options.close_pairs) create_close_pairs(particles);
   create_fixed_arrays(particles, configuration);
   h5::Group observables = root.create_group("observables");
   for (const std::string& name : options.observables)
-    create_element<double>(observables, name, {}, shared);
+    create_element<double>(observables, name, {}, entries_per_chunk);
   h5::Group parameters = root.create_group("parameters");
   write_provenance(parameters, provenance);
   return file;
@@ -143,20 +163,6 @@ h5::File create_layout(const fs::path& path, const Configuration<Dim>& configura
 void refuse_existing(const fs::path& path, bool overwrite) {
   if (!overwrite && fs::exists(path))
     throw UserError(path.string() + ": the file exists already: choose another name or remove it");
-}
-
-h5::Dataset required(const h5::File& file, const std::string& name) {
-  const h5::Group root = file.root();
-  if (!root.has_dataset(name))
-    throw FileError(file.path() + ": the dataset " + name +
-                    " is missing: only a trajectory that vitrel wrote can be continued");
-  return root.dataset(name);
-}
-
-std::optional<h5::Dataset> optional_dataset(const h5::File& file, const std::string& name) {
-  const h5::Group root = file.root();
-  if (!root.has_dataset(name)) return std::nullopt;
-  return root.dataset(name);
 }
 
 }  // namespace
@@ -179,33 +185,60 @@ TrajectoryWriter TrajectoryWriter::append_to(const fs::path& path, std::uint64_t
     throw FileError(path.string() + ": has only " + std::to_string(writer.frames_) +
                     " frames where " + std::to_string(frames_to_keep) +
                     " were expected: it is not the file that the checkpoint belongs to");
-  writer.resize(frames_to_keep);
-  if (writer.close_pairs_) writer.close_pairs_->keep(frames_to_keep);
+  writer.keep(frames_to_keep);
   writer.file_.flush();
-  writer.frames_ = frames_to_keep;
   return writer;
+}
+
+template <class T>
+TrajectoryWriter::Series<T> TrajectoryWriter::required(const std::string& name) const {
+  const h5::Group root = file_.root();
+  if (!root.has_dataset(name))
+    throw FileError(file_.path() + ": the dataset " + name +
+                    " is missing: only a trajectory that vitrel wrote can be continued");
+  return {root.dataset(name)};
+}
+
+template <class T>
+std::optional<TrajectoryWriter::Series<T>> TrajectoryWriter::existing(
+    const std::string& element) const {
+  if (!file_.root().has_dataset(series_path(element))) return std::nullopt;
+  return required<T>(series_path(element));
 }
 
 TrajectoryWriter::TrajectoryWriter(h5::File file)
     : file_(std::move(file)),
-      step_(required(file_, all + "/position/step")),
-      time_(required(file_, all + "/position/time")),
-      edges_(required(file_, all + "/box/edges/value")),
-      position_(required(file_, series_path("position"))),
-      orientation_(required(file_, series_path("orientation"))),
-      image_(optional_dataset(file_, series_path("image"))),
-      angle_(optional_dataset(file_, series_path("angle"))),
-      velocity_(optional_dataset(file_, series_path("velocity"))),
-      angular_velocity_(optional_dataset(file_, series_path("angular_velocity"))) {
+      step_(required<std::int64_t>(all + "/position/step")),
+      time_(required<double>(all + "/position/time")),
+      edges_(required<double>(all + "/box/edges/value")),
+      position_(required<double>(series_path("position"))),
+      image_(existing<std::int32_t>("image")),
+      orientation_(existing<double>("orientation")),
+      angle_(existing<double>("angle")),
+      velocity_(existing<double>("velocity")),
+      angular_velocity_(existing<double>("angular_velocity")) {
   dimension_ = read_provenance(file_.root().group("parameters")).dimension;
-  particles_ = position_.shape().at(1);
-  frames_ = step_.shape().at(0);
+  particles_ = position_.dataset.shape().at(1);
+  frames_at_once_ = std::max(frames_per_chunk(particles_), position_.dataset.frames_per_chunk());
+  frames_ = step_.dataset.shape().at(0);
+  if (image_)
+    largest_image_ = image_->dataset.bytes_per_number() == sizeof(std::int16_t)
+                         ? std::numeric_limits<std::int16_t>::max()
+                         : std::numeric_limits<std::int32_t>::max();
   if (const std::string pairs = all + "/close_pairs"; file_.root().has_group(pairs))
-    close_pairs_ = {required(file_, pairs + "/end"), required(file_, pairs + "/pair"),
-                    required(file_, pairs + "/lag"), required(file_, pairs + "/distance")};
+    close_pairs_ = {required<std::int64_t>(pairs + "/end"), required<std::int64_t>(pairs + "/pair"),
+                    required<std::int32_t>(pairs + "/lag"), required<double>(pairs + "/distance")};
   if (!file_.root().has_group("observables")) return;
   for (const std::string& name : file_.root().group("observables").members())
-    observables_.emplace(name, required(file_, "observables/" + name + "/value"));
+    observables_.emplace(name, required<double>("observables/" + name + "/value"));
+}
+
+TrajectoryWriter::~TrajectoryWriter() {
+  if (step_.added.empty()) return;
+  try {
+    commit();
+  } catch (const FileError&) {  // what was saved before is safe
+  }
 }
 
 std::vector<std::string> TrajectoryWriter::observable_names() const {
@@ -235,105 +268,192 @@ void TrajectoryWriter::check(const Configuration<Dim>& configuration,
   throw UserError(file_.path() + ": every frame needs exactly these observables:" + names);
 }
 
-void TrajectoryWriter::resize(std::uint64_t frames) {
-  for (h5::Dataset* dataset : {&step_, &time_, &edges_, &position_, &orientation_})
-    dataset->resize(frames);
-  for (std::optional<h5::Dataset>* dataset : {&image_, &angle_, &velocity_, &angular_velocity_})
-    if (*dataset) (*dataset)->resize(frames);
-  for (auto& [name, dataset] : observables_) dataset.resize(frames);
-  if (close_pairs_) close_pairs_->end.resize(frames);
+template <class T>
+std::span<T> TrajectoryWriter::Series<T>::add_frame(std::size_t numbers) {
+  ++frames;
+  added.resize(added.size() + numbers);
+  return std::span(added).last(numbers);
 }
 
-void TrajectoryWriter::ClosePairs::resize(std::int64_t new_rows) {
-  rows = new_rows;
-  for (h5::Dataset* dataset : {&pair, &lag, &distance})
-    dataset->resize(static_cast<std::uint64_t>(rows));
+template <class T>
+void TrajectoryWriter::Series<T>::add(std::span<const T> frame) {
+  std::ranges::copy(frame, add_frame(frame.size()).begin());
+}
+
+template <class T>
+void TrajectoryWriter::Series<T>::write() {
+  if (frames == 0) return;
+  const std::uint64_t before = dataset.shape().at(0);
+  dataset.resize(before + frames);
+  dataset.template write_frames<T>(before, std::exchange(frames, 0), added);
+  added.clear();
+}
+
+template <class Visit>
+void TrajectoryWriter::for_each_series(Visit&& visit) {
+  for (Numbers* series : {&time_, &edges_, &position_}) visit(*series);
+  for (std::optional<Numbers>* series : {&orientation_, &angle_, &velocity_, &angular_velocity_})
+    if (*series) visit(**series);
+  if (image_) visit(*image_);
+  for (auto& [name, series] : observables_) visit(series);
+  if (close_pairs_) visit(close_pairs_->end);
+  visit(step_);
+}
+
+void TrajectoryWriter::keep(std::uint64_t frames) {
+  for_each_series([&](auto& series) { series.dataset.resize(frames); });
+  if (close_pairs_) close_pairs_->keep(frames);
+  frames_ = frames;
 }
 
 void TrajectoryWriter::ClosePairs::keep(std::uint64_t frames) {
-  std::int64_t last = 0;
-  if (frames > 0) end.read_frame<std::int64_t>(frames - 1, {&last, 1});
-  resize(last);
+  if (frames > 0) end.dataset.read_frames<std::int64_t>(frames - 1, 1, {&rows, 1});
+  for (h5::Dataset* dataset : {&pair.dataset, &lag.dataset, &distance.dataset})
+    dataset->resize(static_cast<std::uint64_t>(rows));
 }
 
 template <int Dim>
 void TrajectoryWriter::write(const Configuration<Dim>& configuration, std::int64_t step,
                              const Observables& observables) {
   check(configuration, observables);
-  resize(frames_ + 1);
-  write_particles(configuration);
-  if (close_pairs_) close_pairs_->write(frames_, configuration);
-  step_.write_frame<std::int64_t>(frames_, {&step, 1});
-  time_.write_frame<double>(frames_, {&configuration.time, 1});
+  add_particles(configuration);
+  step_.add({&step, 1});
+  time_.add({&configuration.time, 1});
   const Vec<Dim>& lengths = configuration.box.lengths();
   const double z = Dim == 3 ? lengths[Dim - 1] : height;
   const std::array<double, 9> edges{lengths.x(), 0, 0, 0, lengths.y(), 0, 0, 0, z};
-  edges_.write_frame<double>(frames_, edges);
-  for (const auto& [name, value] : observables)
-    observables_.at(name).template write_frame<double>(frames_, {&value, 1});
+  edges_.add(edges);
+  for (const auto& [name, value] : observables) observables_.at(name).add({&value, 1});
   ++frames_;
   // A reader needs time between two commits, and a commit for every frame would cost more than writing it.
   constexpr std::chrono::milliseconds interval(500);
-  if (std::chrono::steady_clock::now() - last_commit_ >= interval) commit();
+  if (std::chrono::steady_clock::now() - last_commit_ >= interval)
+    commit();
+  else if (frames_ % frames_at_once_ == 0)
+    write_added();
+}
+
+/// Frames are counted by `step`, which comes last.
+void TrajectoryWriter::write_added() {
+  if (close_pairs_) {
+    close_pairs_->pair.write();
+    close_pairs_->lag.write();
+    close_pairs_->distance.write();
+  }
+  for_each_series([](auto& series) { series.write(); });
 }
 
 void TrajectoryWriter::commit() {
+  write_added();
   file_.flush();
   last_commit_ = std::chrono::steady_clock::now();
 }
 
+void TrajectoryWriter::synchronize() {
+  write_added();
+  file_.synchronize();
+}
+
+void TrajectoryWriter::close() {
+  write_added();
+  file_.close();
+}
+
 template <int Dim>
-void TrajectoryWriter::write_particles(const Configuration<Dim>& configuration) {
-  std::vector<double> positions, orientations, velocities, angular_velocities;
-  std::vector<std::int32_t> images;
-  const std::vector<Vec<Dim>> velocities_after = velocities_after_contact(configuration);
+void TrajectoryWriter::add_particles(const Configuration<Dim>& configuration) {
+  add_places(configuration);
+  if (velocity_ || angular_velocity_) add_velocities(configuration);
+  if constexpr (Dim == 2)
+    if (angle_) angle_->add(configuration.angle);
+  if (orientation_) {
+    const std::span<double> rows = orientation_->add_frame(4 * particles_);
+    for (std::size_t i = 0; i < particles_; ++i) {
+      const Quaternion q = orientation(configuration, i);
+      std::ranges::copy(std::array{q.w(), q.x(), q.y(), q.z()}, &rows[4 * i]);
+    }
+  }
+  if (close_pairs_) close_pairs_->add(configuration);
+}
+
+template <int Dim>
+void TrajectoryWriter::add_places(const Configuration<Dim>& configuration) {
+  const std::span<double> positions = position_.add_frame(3 * particles_);
+  const std::span<std::int32_t> images =
+      image_ ? image_->add_frame(3 * particles_) : std::span<std::int32_t>();
+  std::int32_t largest = 0;
   for (std::size_t i = 0; i < particles_; ++i) {
     Vec<Dim> position = configuration.position[i];
     Shift<Dim> image = configuration.image[i];
     configuration.box.wrap_if_outside(position, image);
-    append(positions, position);
-    append(images, image);
-    append(orientations, orientation(configuration, i));
-    append(velocities, velocities_after[i]);
-    append(angular_velocities, configuration.angular_velocity[i]);
+    put(&positions[3 * i], position);
+    if (!image_) continue;
+    put(&images[3 * i], image);
+    largest = std::max(largest, image.cwiseAbs().maxCoeff());
   }
-  position_.write_frame<double>(frames_, positions);
-  orientation_.write_frame<double>(frames_, orientations);
-  if (image_) image_->write_frame<std::int32_t>(frames_, images);
-  if constexpr (Dim == 2)
-    if (angle_) angle_->write_frame<double>(frames_, configuration.angle);
-  if (velocity_) velocity_->write_frame<double>(frames_, velocities);
-  if (angular_velocity_) angular_velocity_->write_frame<double>(frames_, angular_velocities);
+  if (largest > largest_image_) widen_images();
+}
+
+/// Copies all images into numbers of 32 bits.
+void TrajectoryWriter::widen_images() {
+  if (!image_) return;
+  h5::Group group = file_.root().group(all + "/image");
+  h5::Dataset wide = group.create_series<std::int32_t>("wide", {particles_, 3}, frames_at_once_);
+  const std::uint64_t frames = image_->dataset.shape().at(0);
+  wide.resize(frames);
+  std::vector<std::int32_t> images;
+  for (std::uint64_t first = 0; first < frames; first += frames_at_once_) {
+    const std::uint64_t count = std::min(frames_at_once_, frames - first);
+    images.resize(count * 3 * particles_);
+    image_->dataset.read_frames<std::int32_t>(first, count, images);
+    wide.write_frames<std::int32_t>(first, count, images);
+  }
+  group.remove("value");
+  group.link("value", all + "/image/wide");
+  group.remove("wide");
+  image_->dataset = std::move(wide);
+  largest_image_ = std::numeric_limits<std::int32_t>::max();
 }
 
 template <int Dim>
-void TrajectoryWriter::ClosePairs::write(std::uint64_t frame,
-                                         const Configuration<Dim>& configuration) {
-  auto row = static_cast<std::uint64_t>(rows);
-  resize(rows + static_cast<std::int64_t>(configuration.close_pairs.size()));
+void TrajectoryWriter::add_velocities(const Configuration<Dim>& configuration) {
+  if (velocity_) {
+    const std::span<double> rows = velocity_->add_frame(3 * particles_);
+    const std::vector<Vec<Dim>> velocities = velocities_after_contact(configuration);
+    for (std::size_t i = 0; i < particles_; ++i) put(&rows[3 * i], velocities[i]);
+  }
+  if (!angular_velocity_) return;
+  if constexpr (Dim == 2)
+    if (angular_velocity_->dataset.shape().size() == 2)
+      return angular_velocity_->add(configuration.angular_velocity);
+  const std::span<double> rows = angular_velocity_->add_frame(3 * particles_);
+  for (std::size_t i = 0; i < particles_; ++i)
+    put(&rows[3 * i], in_space(configuration.angular_velocity[i]));
+}
+
+template <int Dim>
+void TrajectoryWriter::ClosePairs::add(const Configuration<Dim>& configuration) {
   for (const auto& [images, closest] : configuration.close_pairs) {
     const auto& [i, j, shift] = images;
     const std::array particles{static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)};
-    std::vector<std::int32_t> between;
-    append<std::int32_t, Dim>(between, shift + configuration.image[i] - configuration.image[j]);
-    pair.write_frame<std::int64_t>(row, particles);
-    lag.write_frame<std::int32_t>(row, between);
-    distance.write_frame<double>(row, {&closest, 1});
-    ++row;
+    pair.add(particles);
+    put(lag.add_frame(3).data(),
+        Shift<Dim>(shift + configuration.image[i] - configuration.image[j]));
+    distance.add({&closest, 1});
   }
-  end.write_frame<std::int64_t>(frame, {&rows, 1});
+  rows += static_cast<std::int64_t>(configuration.close_pairs.size());
+  end.add({&rows, 1});
 }
 
 void TrajectoryWriter::record_wall_seconds(double seconds) {
   h5::Group parameters = file_.root().group("parameters");
   parameters.set_attribute("wall_seconds", seconds);
-  file_.flush();
+  commit();
 }
 
 void TrajectoryWriter::record_parameters(const std::string& toml) {
   h5::Group parameters = file_.root().group("parameters");
   replace_parameters(parameters, toml);
-  file_.flush();
+  commit();
 }
 
 template <int Dim>
@@ -343,7 +463,7 @@ void write_state(const fs::path& path, const Configuration<Dim>& configuration,
   AtomicFile pending(path);
   TrajectoryWriter writer(
       create_layout(pending.partial(), configuration, provenance,
-                    {.velocities = true, .close_pairs = !configuration.close_pairs.empty()}));
+                    {.velocities = true, .close_pairs = !configuration.close_pairs.empty(), .expected_frames = 1}));
   writer.write(configuration, 0);
   writer.close();
   pending.commit();

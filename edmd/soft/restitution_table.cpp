@@ -81,15 +81,6 @@ std::string key_of(const ForceForm& form, const RestitutionDomain& domain,
       domain.m.high, domain.d.low, domain.d.high, options.tolerance, options.min_width);
 }
 
-/// An array with a checksum.
-template <class T>
-void write_array(h5::Group& group, const std::string& name, const std::vector<T>& values) {
-  h5::Dataset series =
-      group.create_series<T>(name, {values.size()}, h5::SeriesStorage::plain_chunks);
-  series.resize(1);
-  series.write_frame(0, std::span<const T>(values));
-}
-
 /// The checksum of all numbers. A program that changes the file makes the checksums of HDF5 right again, but not this one.
 template <class Content>
 std::uint64_t checksum_of(const Content& content) {
@@ -112,10 +103,11 @@ void write_panels(h5::Group& group, const Panels& panels) {
     axis.push_back(node.axis);
     next.push_back(node.next);
   }
-  write_array(group, "middle", middle);
-  write_array(group, "axis", axis);
-  write_array(group, "next", next);
-  write_array(group, "panels", panels.content().panels);
+  group.create_array<double>("middle", {middle.size()}, middle);
+  group.create_array<std::int32_t>("axis", {axis.size()}, axis);
+  group.create_array<std::int32_t>("next", {next.size()}, next);
+  const std::vector<double>& numbers = panels.content().panels;
+  group.create_array<double>("panels", {numbers.size()}, numbers);
   group.set_attribute("checksum", checksum_of(panels.content()));
 }
 

@@ -93,9 +93,9 @@ TEST(Hardening, PositionsFarFromTheBoxAreRefused) {
     h5::File file = h5::File::open(folder / "state.h5", h5::Access::write);
     h5::Dataset positions = file.root().dataset("particles/all/position/value");
     std::vector<double> values(3 * 12);
-    positions.read_frame<double>(0, values);
+    positions.read_frames<double>(0, 1, values);
     values[3 * 7] = -1e300;
-    positions.write_frame<double>(0, values);
+    positions.write_frames<double>(0, 1, values);
     file.close();
   }
   expect_all_refuse(

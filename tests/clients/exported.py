@@ -26,6 +26,8 @@ class Trajectory:
             if self.has_velocity:
                 self.velocity = particles["velocity/value"][:]
                 self.angular_velocity = particles["angular_velocity/value"][:]
+                if self.dimension == 2:
+                    self.angular_velocity = np.pad(self.angular_velocity[:, :, None], ((0, 0), (0, 0), (2, 0)))
             names = {value: name for name, value in h5py.check_enum_dtype(particles["species"].dtype).items()}
             self.species = [names[k] for k in particles["species"][:]]
             self.mass = particles["mass"][:]

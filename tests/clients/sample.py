@@ -19,17 +19,12 @@ def angle(k):
     return 0.5 * i - 3.0 * k
 
 
-def orientation(k):
-    half = angle(k) / 2
-    return np.stack([np.cos(half), zero, zero, np.sin(half)], axis=1)
-
-
 def velocity(k):
     return np.stack([0.25 * i, zero - 0.5 * k, zero], axis=1)
 
 
 def angular_velocity(k):
-    return np.stack([zero, zero, i + 0.125 * k], axis=1)
+    return i + 0.125 * k
 
 
 def edges(k):

@@ -332,6 +332,80 @@ TEST_F(TrajectoryFile, CuttingBackDropsFrames) {
               HasSubstr("only 140 frames where 141"));
 }
 
+// Frames before and after the first particle that has crossed the box more often than 16 bits can count, also of a file
+// that is continued.
+TEST_F(TrajectoryFile, ImagesGrowBeyond16Bits) {
+  const auto frame = [](std::uint64_t k) {
+    Configuration2 configuration = random_configuration(12, k);
+    if (k >= 200) configuration.image[3] = {32'768, -40'000};
+    return configuration;
+  };
+  auto writer = TrajectoryWriter::create(file("run.h5"), frame(0), some_provenance());
+  const auto write_up_to = [&](std::uint64_t end) {
+    for (std::uint64_t k = writer.frames(); k < end; ++k)
+      writer.write(frame(k), static_cast<std::int64_t>(k));
+  };
+  const auto bytes = [&] {
+    writer.commit();
+    const h5::File now = h5::File::open(file("run.h5"), h5::Access::read);
+    return now.root().dataset("particles/all/image/value").bytes_per_number();
+  };
+  write_up_to(200);
+  EXPECT_EQ(bytes(), 2u);
+  write_up_to(201);
+  EXPECT_EQ(bytes(), 4u);
+  writer.close();
+  writer = TrajectoryWriter::append_to(file("run.h5"), 150);
+  write_up_to(300);
+  writer.close();
+  const TrajectoryReader reader(file("run.h5"));
+  ASSERT_EQ(reader.frames(), 300u);
+  for (std::uint64_t k = 0; k < 300; ++k) expect_same_bits(reader.read(k), frame(k));
+}
+
+TEST_F(TrajectoryFile, SinglePrecisionRoundsTheNumbersOfParticlesOnce) {
+  const TrajectoryOptions options{.velocities = true, .single_precision = true};
+  const Configuration3 solids = random_solids(9, 4);
+  TrajectoryWriter writer =
+      TrajectoryWriter::create(file("run.h5"), solids, some_provenance(), options);
+  writer.write(solids, 0);
+  writer.close();
+  const TrajectoryReader reader(file("run.h5"));
+  EXPECT_TRUE(reader.has_single_precision());
+  const Configuration3 found = reader.read<3>(0);
+  EXPECT_EQ(found.box.lengths(), solids.box.lengths());
+  EXPECT_EQ(found.time, solids.time);
+  EXPECT_TRUE(same_bits(found.image, solids.image));
+  EXPECT_TRUE(same_bits(found.shape, solids.shape));
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(found.position[i], solids.position[i].cast<float>().cast<double>());
+    EXPECT_EQ(found.velocity[i], solids.velocity[i].cast<float>().cast<double>());
+    EXPECT_TRUE(found.orientation[i].isApprox(solids.orientation[i], 0x1p-23));
+  }
+  write_run(file("double.h5"), 1);
+  EXPECT_FALSE(TrajectoryReader(file("double.h5")).has_single_precision());
+}
+
+// Three coordinates, an angle, three images, three velocities and an angular velocity.
+TEST_F(TrajectoryFile, FramesTakeNoMoreRoomThanTheirNumbers) {
+  constexpr std::size_t particles = 1000;
+  constexpr std::uint64_t frames = 32;
+  const auto bytes_per_particle = [&](TrajectoryOptions options) {
+    options.overwrite = true;
+    auto writer = TrajectoryWriter::create(file("run.h5"), random_configuration(particles, 0),
+                                           some_provenance(), options);
+    const auto before = fs::file_size(file("run.h5"));
+    for (std::uint64_t k = 0; k < frames; ++k)
+      writer.write(random_configuration(particles, k), static_cast<std::int64_t>(k));
+    writer.close();
+    return static_cast<double>(fs::file_size(file("run.h5")) - before) / frames / particles;
+  };
+  constexpr double room = 1.5;  // for step, time, box and the index of the chunks
+  EXPECT_LT(bytes_per_particle({.velocities = true}), 70 + room);
+  EXPECT_LT(bytes_per_particle({.velocities = true, .single_precision = true}), 38 + room);
+  EXPECT_LT(bytes_per_particle({.single_precision = true}), 22 + room);
+}
+
 // A copy of the file in the middle of a run is what a killed process leaves behind.
 TEST_F(TrajectoryFile, ACopyTakenDuringTheRunIsCompleteAndCanBeContinued) {
   auto writer = TrajectoryWriter::create(file("run.h5"), random_configuration(12, 0),
@@ -631,7 +705,7 @@ class SmallDisk : public Files {
  protected:
   void SetUp() override {
     fs::create_directory(disk_ = file("disk"));
-    if (mount("tmpfs", disk_.c_str(), "tmpfs", 0, "size=1m") != 0)
+    if (mount("tmpfs", disk_.c_str(), "tmpfs", 0, "size=4m") != 0)
       GTEST_SKIP() << "mounting a small tmpfs is not permitted here";
     mounted_ = true;
   }
@@ -650,7 +724,7 @@ class SmallDisk : public Files {
 
 TEST_F(SmallDisk, WhenFullTheFramesBeforeAreKeptAndTheRunGoesOnLater) {
   const fs::path path = disk_ / "run.h5";
-  fill(600'000);
+  fill(3'000'000);
   std::uint64_t frames = 0;
   {
     auto writer = TrajectoryWriter::create(path, random_configuration(500, 0), some_provenance(),

@@ -8,6 +8,7 @@ namespace {
 using Style = FieldVisitor::TableStyle;
 
 constexpr const char* spacing_names[] = {"linear", "logarithmic"};
+constexpr const char* precision_names[] = {"double", "single"};
 
 void describe_samples(OutputParameters& p, FieldVisitor& visit) {
   using Spacing = OutputParameters::Spacing;
@@ -67,6 +68,13 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
                "Whether the velocities of all particles are also written. Energies and pressure do "
                "not need them."},
               p.velocities);
+  visit.field({"precision", "",
+               "Of the positions, angles and velocities that are written. In single precision the "
+               "trajectory has about "
+               "half the size and serves to be looked at and analysed; particles that touch may "
+               "overlap in it by "
+               "rounding. The run itself, and its checkpoint, are not rounded."},
+              p.precision, precision_names);
   const Field correlations{
       "correlations", "",
       "Correlations measured during the run, from states that need not be "

@@ -94,12 +94,14 @@ struct CorrelationParameters {
 
 struct OutputParameters {
   enum class Spacing { linear, logarithmic };
+  enum class Precision { full, single };
 
   Spacing spacing = Spacing::linear;
   std::optional<double> interval;  ///< none: sample_interval
   double first = 0.01;
   int per_decade = 20;
   bool velocities = true;
+  Precision precision = Precision::full;
   std::optional<CorrelationParameters> correlations;
   double checkpoint_interval = 30;
 };

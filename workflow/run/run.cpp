@@ -127,6 +127,9 @@ class RunJob {
     return TrajectoryWriter::create(request_.output, state.configuration, provenance,
                                     {.velocities = request_.parameters.output.velocities,
                                      .close_pairs = is_soft(),
+                                     .single_precision = request_.parameters.output.precision ==
+                                                         OutputParameters::Precision::single,
+                                     .expected_frames = sample_times(request_.parameters).size(),
                                      .observables = run_observables,
                                      .overwrite = true});
   }

@@ -18,13 +18,13 @@ double memory(int dimension, bool is_round, double particles) {
   return program + each * particles;
 }
 
-/// Positions, quaternions, angles and velocities are stored as they are; images, and in the plane angular velocities,
-/// are compressed to a few bytes.
+/// Positions and velocities, three numbers each, orientations, angular velocities, and images of 16 bits.
 double disk(const Parameters& p, int dimension, double particles) {
   constexpr double file = 50e3, per_frame = 300, of_particle = 44;
-  const double velocities = dimension == 2 ? 32 : 48;
-  const double per_particle =
-      24 + 32 + 4 + (dimension == 2 ? 8 : 0) + (p.output.velocities ? velocities : 0);
+  const double bytes = p.output.precision == OutputParameters::Precision::single ? 4 : 8;
+  const double places = dimension == 2 ? 3 + 1 : 3 + 4;
+  const double velocities = !p.output.velocities ? 0 : dimension == 2 ? 3 + 1 : 3 + 3;
+  const double per_particle = 6 + bytes * (places + velocities);
   const auto frames = static_cast<double>(sample_times(p).size());
   return file + of_particle * particles + frames * (per_frame + per_particle * particles);
 }

@@ -49,6 +49,10 @@ FileCheck<Dim> check_file(const TrajectoryReader& reader, bool last_only,
     control.report_progress({static_cast<double>(frame + 1) / static_cast<double>(reader.frames()),
                              static_cast<double>(frame + 1), "frame"});
   }
+  if (result.overlaps > 0 && reader.has_single_precision())
+    result.complaints.emplace_back(
+        "its positions are rounded to single precision (output.precision), so that particles that "
+        "touched may overlap in it");
   return result;
 }
 

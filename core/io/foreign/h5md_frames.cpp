@@ -70,7 +70,7 @@ class Element {
     const h5::Shape one = shape();
     std::vector<double> numbers(
         std::accumulate(one.begin(), one.end(), std::uint64_t{1}, std::multiplies<>()));
-    value_.read_frame<double>(frame, numbers);
+    value_.read_frames<double>(frame, 1, numbers);
     return numbers;
   }
 
