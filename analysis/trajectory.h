@@ -25,6 +25,8 @@ class Trajectory {
   virtual const std::vector<double>& times() const = 0;
   /// Frame k; the reference is valid until the next call.
   virtual const Configuration<Dim>& read(std::size_t k) = 0;
+  /// The same for who needs no velocities: they may be those of another frame.
+  virtual const Configuration<Dim>& read_places(std::size_t k) { return read(k); }
   /// Angles in the plane are known up to multiples of this, 2π, or π for directors; 0: whole turns are counted.
   virtual double turn_period() const { return 0; }
   /// The frames, in ascending order, to which some particle may have gone another way than its box crossings say.
@@ -59,6 +61,9 @@ class TrajectoryPart : public Trajectory<Dim> {
                whole.times().begin() + static_cast<std::ptrdiff_t>(end)) {}
   const std::vector<double>& times() const override { return times_; }
   const Configuration<Dim>& read(std::size_t k) override { return whole_.read(begin_ + k); }
+  const Configuration<Dim>& read_places(std::size_t k) override {
+    return whole_.read_places(begin_ + k);
+  }
   double turn_period() const override { return whole_.turn_period(); }
   std::vector<std::size_t> doubtful_frames() const override {
     std::vector<std::size_t> own;

@@ -190,6 +190,13 @@ class CommandLine : public ProgramCommandLine {
                "<run>_results.h5 or "
                "<sweep>/results.h5");
     add_analysis(sub, analyze_.analysis);
+    sub.add_option_function<std::string>(
+           "--only",
+           [this](const std::string& tables) {
+             analyze_.analysis.overrides.push_back("analysis.only=\"" + tables + '"');
+           },
+           "Only these tables of --list, separated by commas: msd,fs")
+        ->type_name("TABLES");
     add_print(sub, analyze_.print);
   }
 

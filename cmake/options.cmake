@@ -32,6 +32,8 @@ add_library(vitrel::options ALIAS vitrel_options)
 set_target_properties(vitrel_options PROPERTIES EXPORT_NAME options)
 target_compile_features(vitrel_options INTERFACE cxx_std_20)
 target_compile_options(vitrel_options INTERFACE -ffp-contract=off)
+# Square roots are exact with or without errno; without it they are one instruction, and loops of them are vectorised.
+target_compile_options(vitrel_options INTERFACE -fno-math-errno)
 target_compile_definitions(vitrel_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_STATIC_ALIGN_BYTES=16
                            $<$<BOOL:${VITREL_PORTABLE_EXTENDED}>:VITREL_PORTABLE_EXTENDED>)
 if(VITREL_PROCESSOR)

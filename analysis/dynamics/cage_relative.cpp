@@ -16,7 +16,11 @@ namespace vitrel {
 
 namespace {
 
-constexpr std::size_t max_origins = 256;
+/// Of every lag: fewer where many particles are averaged over at each.
+std::size_t max_origins(std::size_t particles) {
+  constexpr std::size_t fewest = 64, most = 256, particles_at_all = std::size_t{1} << 21;
+  return std::clamp(particles_at_all / std::max<std::size_t>(1, particles), fewest, most);
+}
 
 /// Six neighbours on the average, and where those of a particle begin.
 constexpr double neighbor_bytes = 6 * sizeof(std::uint32_t) + sizeof(std::uint32_t);
@@ -59,7 +63,7 @@ class Recording {
             const ProgressReport& report)
       : positions_(trajectory.frames()), cages_(trajectory.frames()) {
     for (std::size_t k = 0; k < trajectory.frames(); ++k) {
-      const Configuration2& frame = trajectory.read(k);
+      const Configuration2& frame = trajectory.read_places(k);
       for (std::size_t i = 0; i < frame.size(); ++i) positions_[k].push_back(frame.unwrapped(i));
       if (is_origin[k]) cages_[k] = cages(frame);
       tell(report, k + 1, trajectory.frames(), "frames");
@@ -68,17 +72,19 @@ class Recording {
 
   std::size_t particles() const { return positions_.front().size(); }
 
-  /// |Δr_c|² of particle i.
-  double square(std::size_t from, std::size_t to, std::size_t i) const {
+  /// |Δr_c|² of all particles. `moved` is room for their displacements.
+  void square(std::size_t from, std::size_t to, std::vector<Vec2>& moved,
+              std::vector<double>& squares) const {
     const Cages& cage = cages_[from];
-    const std::uint32_t begin = cage.first[i], end = cage.first[i + 1];
-    const auto moved = [&](std::size_t j) -> Vec2 {
-      return positions_[to][j] - positions_[from][j];
-    };
-    Vec2 around = Vec2::Zero();
-    for (std::uint32_t n = begin; n < end; ++n) around += moved(cage.neighbors[n]);
-    if (end > begin) around /= end - begin;
-    return (moved(i) - around).squaredNorm();
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      moved[i] = positions_[to][i] - positions_[from][i];
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const std::uint32_t begin = cage.first[i], end = cage.first[i + 1];
+      Vec2 around = Vec2::Zero();
+      for (std::uint32_t n = begin; n < end; ++n) around += moved[cage.neighbors[n]];
+      if (end > begin) around /= end - begin;
+      squares[i] = (moved[i] - around).squaredNorm();
+    }
   }
 
  private:
@@ -93,30 +99,46 @@ bool fits(const std::vector<bool>& is_origin, std::size_t particles, std::size_t
   return bytes * static_cast<double>(particles) <= static_cast<double>(memory);
 }
 
+/// One quantity at one lag.
+struct Quantity {
+  Quantity(const Lag& lag, const LikeParticles& alike)
+      : sum(lag.origins, alike.classes), of_particles(alike.class_of.size()) {}
+  CorrelationSum sum;
+  std::vector<double> of_particles;  ///< summed over the origins
+};
+
 /// The sums of one lag over all particles.
 struct LagResult {
-  LagResult(const Lag& lag, std::size_t wave_numbers, std::size_t classes)
-      : square(lag.origins, classes),
-        overlap(lag.origins, classes),
-        scattering(wave_numbers, CorrelationSum(lag.origins, classes)) {}
-  CorrelationSum square, overlap;
-  std::vector<CorrelationSum> scattering;
+  LagResult(const Lag& lag, std::size_t wave_numbers, const LikeParticles& alike)
+      : square(lag, alike), overlap(lag, alike), scattering(wave_numbers, Quantity(lag, alike)) {}
+  Quantity square, overlap;
+  std::vector<Quantity> scattering;
+
+  void finish(const LikeParticles& alike) {
+    const auto finish_one = [&](Quantity& quantity) {
+      quantity.sum.finish_particles(quantity.of_particles, alike.class_of);
+      quantity.of_particles = {};
+    };
+    finish_one(square);
+    finish_one(overlap);
+    std::ranges::for_each(scattering, finish_one);
+  }
 };
 
 LagResult measure(const Recording& recording, const LikeParticles& alike, const Lag& lag,
                   const std::vector<double>& wave_numbers, double overlap_distance,
                   const BesselJ0& bessel) {
-  LagResult result(lag, wave_numbers.size(), alike.classes);
-  std::vector<double> squares(lag.origins), values(lag.origins);
-  for (std::size_t i = 0; i < recording.particles(); ++i) {
-    const auto add = [&](CorrelationSum& sum, auto&& value) {
+  LagResult result(lag, wave_numbers.size(), alike);
+  const std::size_t n = recording.particles();
+  std::vector<Vec2> moved(n);
+  std::vector<double> squares(n), values(n);
+  for (std::size_t k = 0; k < lag.origins; ++k) {
+    const auto add = [&](Quantity& quantity, auto&& value) {
       std::ranges::transform(squares, values.begin(), value);
-      sum.add(0, values);
-      sum.finish_particle(alike.class_of[i]);
+      quantity.sum.add_origin(k, values, quantity.of_particles);
     };
-    for (std::size_t k = 0; k < lag.origins; ++k)
-      squares[k] = recording.square(lag.from(k), lag.to(k), i);
-    add(result.square, [](double square) { return square; });
+    recording.square(lag.from(k), lag.to(k), moved, squares);
+    result.square.sum.add_origin(k, squares, result.square.of_particles);
     add(result.overlap, [near = overlap_distance * overlap_distance](double square) {
       return square < near ? 1.0 : 0.0;
     });
@@ -124,6 +146,7 @@ LagResult measure(const Recording& recording, const LikeParticles& alike, const 
       add(result.scattering[j],
           [&bessel, q = wave_numbers[j]](double square) { return bessel(q * std::sqrt(square)); });
   }
+  result.finish(alike);
   return result;
 }
 
@@ -134,10 +157,10 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
                                           const ProgressReport& report) {
   if (trajectory.frames() < 2)
     throw UserError("cage-relative displacements: at least two frames are needed");
+  const Configuration2& first = trajectory.read_places(0);
   TimeAxisOptions axis = options.axis;
-  axis.max_origins = std::min(axis.max_origins, max_origins);
+  axis.max_origins = std::min(axis.max_origins, max_origins(first.size()));
   const std::vector<Lag> lags = time_axis_of_motion(trajectory, axis);
-  const Configuration2& first = trajectory.read(0);
   const LikeParticles alike = like_particles(first);
   const std::vector<bool> is_origin = origins_of(lags, trajectory.frames());
   if (!fits(is_origin, first.size(), options.memory)) return std::nullopt;
@@ -161,11 +184,11 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
   for (std::size_t l = 0; l < lags.size(); ++l) {
     result.lag.push_back(lags[l].time);
     result.origins.push_back(lags[l].origins);
-    result.square.push_back(sums[l]->square.estimate(lags[l], n));
-    result.overlap.push_back(sums[l]->overlap.estimate(lags[l], n));
-    result.susceptibility.push_back(susceptibility(sums[l]->overlap, lags[l], n));
+    result.square.push_back(sums[l]->square.sum.estimate(lags[l], n));
+    result.overlap.push_back(sums[l]->overlap.sum.estimate(lags[l], n));
+    result.susceptibility.push_back(susceptibility(sums[l]->overlap.sum, lags[l], n));
     for (std::size_t j = 0; j < result.wave_numbers.size(); ++j)
-      result.self_scattering[j].push_back(sums[l]->scattering[j].estimate_of_decay(lags[l], n));
+      result.self_scattering[j].push_back(sums[l]->scattering[j].sum.estimate_of_decay(lags[l], n));
   }
   return result;
 }

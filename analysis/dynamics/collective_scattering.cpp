@@ -127,14 +127,14 @@ template <int Dim>
 Series read_modes(Trajectory<Dim>& trajectory, const std::vector<std::array<int, Dim>>& vectors,
                   int threads, const ProgressReport& report) {
   const std::size_t frames = trajectory.frames();
-  const Vec<Dim> lengths = trajectory.read(0).box.lengths();
+  const Vec<Dim> lengths = trajectory.read_places(0).box.lengths();
   const Modes<Dim> modes(vectors, reciprocal(PeriodicBox<Dim>(lengths)));
   Series series(vectors.size(), std::vector<std::complex<double>>(frames));
   std::vector<std::vector<Vec<Dim>>> positions(frames_at_once);
   for (std::size_t begin = 0; begin < frames; begin += frames_at_once) {
     const std::size_t count = std::min(frames_at_once, frames - begin);
     for (std::size_t k = 0; k < count; ++k) {
-      const Configuration<Dim>& frame = trajectory.read(begin + k);
+      const Configuration<Dim>& frame = trajectory.read_places(begin + k);
       if (frame.box.lengths() != lengths)
         throw UserError("collective scattering: the box of frame " + std::to_string(begin + k) +
                         " differs from that of the first; it must stay the same");
@@ -155,7 +155,7 @@ Series read_modes(Trajectory<Dim>& trajectory, const std::vector<std::array<int,
 /// Time difference 0 of all frames, before those of the time axis.
 std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOptions& axis) {
   std::vector<Lag> lags = time_axis(times, axis);
-  const std::size_t stride = (times.size() + axis.max_origins - 1) / axis.max_origins;
+  const std::size_t stride = even_stride(times.size(), axis);
   lags.insert(lags.begin(), Lag{0, stride, (times.size() - 1) / stride + 1});
   return lags;
 }
@@ -259,7 +259,7 @@ CollectiveScattering collective_scattering(Trajectory<Dim>& trajectory,
   if (times.empty()) throw UserError("collective scattering: the run holds no frames");
   CollectiveScattering result;
   std::vector<std::array<int, Dim>> vectors;
-  const Configuration<Dim>& first = trajectory.read(0);
+  const Configuration<Dim>& first = trajectory.read_places(0);
   const std::size_t particles = first.size();
   for (const double q : wave_numbers) {
     const WaveVectorShell<Dim> shell = wave_vector_shell(first.box, q);

@@ -82,9 +82,28 @@ double CorrelationSum::finish_particle(std::size_t its_class) {
   return mean;
 }
 
+void CorrelationSum::add_origin(std::size_t origin, std::span<const double> values,
+                                std::span<double> particle_sums) {
+  per_origin_[origin] += sum_of(values);
+  for (std::size_t i = 0; i < values.size(); ++i) particle_sums[i] += values[i];
+}
+
+void CorrelationSum::finish_particles(std::span<const double> particle_sums,
+                                      std::span<const std::size_t> classes) {
+  for (std::size_t i = 0; i < particle_sums.size(); ++i)
+    classes_[classes[i]].add(particle_sums[i] / static_cast<double>(per_origin_.size()));
+}
+
 void CorrelationSum::add(const CorrelationSum& other) {
   for (std::size_t k = 0; k < per_origin_.size(); ++k) per_origin_[k] += other.per_origin_[k];
   for (std::size_t c = 0; c < classes_.size(); ++c) classes_[c].add(other.classes_[c]);
+}
+
+CorrelationSum CorrelationSum::of_origins(std::size_t begin, std::size_t end) const {
+  CorrelationSum part(0, 0);
+  part.per_origin_.assign(per_origin_.begin() + static_cast<std::ptrdiff_t>(begin),
+                          per_origin_.begin() + static_cast<std::ptrdiff_t>(end));
+  return part;
 }
 
 PointEstimate CorrelationSum::estimate(const Lag& lag, std::size_t particles) const {

@@ -57,10 +57,18 @@ class CorrelationSum {
   void add(std::size_t first_origin, std::span<const double> values);
   /// Its mean over all origins; it belongs to that class. The next values are those of another particle.
   double finish_particle(std::size_t its_class = 0);
+  /// Else, origin by origin: the values of all particles at one, which also add to their own sums over the origins …
+  void add_origin(std::size_t origin, std::span<const double> values,
+                  std::span<double> particle_sums);
+  /// … and at last these sums, with the classes of the particles.
+  void finish_particles(std::span<const double> particle_sums,
+                        std::span<const std::size_t> classes);
   /// The sums of other particles at the same origins.
   void add(const CorrelationSum& other);
 
   std::span<const double> per_origin() const { return per_origin_; }
+  /// The same of the origins begin … end − 1 alone, without particles to compare.
+  CorrelationSum of_origins(std::size_t begin, std::size_t end) const;
   PointEstimate estimate(const Lag& lag, std::size_t particles) const;
   /// Of an x that decays, and is remembered for no longer than it takes to: where the time difference is too long for
   /// blocks of four, these are as long as the series itself asks for (slow_average in blocking.h).

@@ -13,7 +13,7 @@ namespace {
 std::vector<double> turns_of_director(Trajectory2& whole) {
   std::vector<double> directors;
   for (std::size_t k = 0; k < whole.frames(); ++k) {
-    double director = order_tensor(whole.read(k)).director();
+    double director = order_tensor(whole.read_places(k)).director();
     if (k > 0) {
       const double turns = std::round((directors.back() - director) / std::numbers::pi);
       director += turns * std::numbers::pi;
@@ -33,7 +33,7 @@ std::vector<Quaternion> turns_of_director(Trajectory3& whole) {
   std::vector<Quaternion> turns;
   Vec3 before = Vec3::Zero();
   for (std::size_t k = 0; k < whole.frames(); ++k) {
-    Vec3 director = orientation_tensor(whole.read(k)).director();
+    Vec3 director = orientation_tensor(whole.read_places(k)).director();
     if (k == 0) {
       turns.push_back(Quaternion::Identity());
     } else {
@@ -60,8 +60,9 @@ DirectorFrame<Dim>::DirectorFrame(Trajectory<Dim>& whole)
     : whole_(whole), turn_(turns_of_director(whole)) {}
 
 template <int Dim>
-const Configuration<Dim>& DirectorFrame<Dim>::read(std::size_t k) {
-  frame_ = whole_.read(k);
+const Configuration<Dim>& DirectorFrame<Dim>::turned(const Configuration<Dim>& frame,
+                                                     std::size_t k) {
+  frame_ = frame;
   turn_back(frame_, turn_[k]);
   return frame_;
 }

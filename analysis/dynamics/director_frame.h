@@ -19,11 +19,16 @@ class DirectorFrame : public Trajectory<Dim> {
  public:
   explicit DirectorFrame(Trajectory<Dim>& whole);
   const std::vector<double>& times() const override { return whole_.times(); }
-  const Configuration<Dim>& read(std::size_t k) override;
+  const Configuration<Dim>& read(std::size_t k) override { return turned(whole_.read(k), k); }
+  const Configuration<Dim>& read_places(std::size_t k) override {
+    return turned(whole_.read_places(k), k);
+  }
 
  private:
   /// An angle, or the rotation from the frame of the first director.
   using Turn = std::conditional_t<Dim == 2, double, Quaternion>;
+
+  const Configuration<Dim>& turned(const Configuration<Dim>& frame, std::size_t k);
 
   Trajectory<Dim>& whole_;
   std::vector<Turn> turn_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "analysis/dynamics/lag_sums.h"
 #include "analysis/dynamics/like_particles.h"
@@ -15,7 +16,7 @@ namespace vitrel {
 
 namespace {
 
-/// Tracks taken apart into phases at a time.
+/// Particles whose paths stay in the cache.
 constexpr std::size_t paths_at_once = 16;
 
 /// Particles of one species, or all of them.
@@ -70,7 +71,7 @@ class Pass {
         lags_(lags),
         quantities_(quantities),
         alike_(alike),
-        first_(trajectory.read(0)),
+        first_(trajectory.read_places(0)),
         species_(species),
         report_(report) {}
 
@@ -89,7 +90,7 @@ class Pass {
   }
 
   void add_batch(std::size_t begin, std::size_t end) {
-    const std::vector<Track<Dim>> tracks =
+    std::vector<Track<Dim>> tracks =
         read_tracks(trajectory_, begin, end, [&](double read) { tell(begin, end, 0.5 * read); });
     for (std::size_t i = begin; i < end; i += paths_at_once) {
       add_paths(tracks, begin, i, std::min(i + paths_at_once, end));
@@ -99,12 +100,14 @@ class Pass {
   }
 
   /// Threads share the lags, so that every sum adds up its particles in their order.
-  void add_paths(const std::vector<Track<Dim>>& tracks, std::size_t batch, std::size_t begin,
+  void add_paths(std::vector<Track<Dim>>& tracks, std::size_t batch, std::size_t begin,
                  std::size_t end) {
     std::vector<std::optional<Path<Dim>>> paths(end - begin);
+    const std::size_t stride = lags_.empty() ? 1 : std::max<std::size_t>(1, lags_.front().stride);
     in_parallel(paths.size(), threads_, [&](std::size_t from, std::size_t to) {
       for (std::size_t p = from; p < to; ++p)
-        paths[p].emplace(tracks[begin + p - batch], first_.shape[begin + p], quantities_.axes);
+        paths[p].emplace(std::move(tracks[begin + p - batch]), first_.shape[begin + p],
+                         quantities_.axes, stride);
     });
     for (const auto& path : paths) largest_turn_ = std::max(largest_turn_, path->largest_turn);
     in_parallel(lags_.size(), threads_, [&](std::size_t from, std::size_t to) {
@@ -130,14 +133,15 @@ template <int Dim>
 void evaluate_rotation(DisplacementGroup& group, const LagSums<Dim>& all_sums, const Lag& lag) {
   const typename LagSums<Dim>::Rotation& sums = all_sums.rotation();
   const std::size_t n = group.rotors;
+  for (std::size_t j = 0; j < group.orientation.size(); ++j)
+    group.orientation[j].push_back(sums.orientation[j].estimate_of_decay(lag, n));
+  if (!all_sums.parts().displacement) return;
   group.parallel.push_back(sums.parallel.estimate(lag, n));
   group.perpendicular.push_back(sums.perpendicular.estimate(lag, n));
   group.rotation.push_back(sums.turn.square.estimate(lag, n));
   group.quartic_rotation.push_back(sums.turn.quartic.estimate(lag, n));
   group.non_gaussian_rotation.push_back(
       sums.turn.non_gaussian(LagSums<Dim>::normal_rotation, lag, n));
-  for (std::size_t j = 0; j < sums.orientation.size(); ++j)
-    group.orientation[j].push_back(sums.orientation[j].estimate_of_decay(lag, n));
 }
 
 template <int Dim>
@@ -147,20 +151,52 @@ DisplacementGroup evaluate(const Members<Dim>& members, const std::vector<Lag>& 
   group.name = members.name;
   group.particles = members.particles;
   group.rotors = members.rotors;
-  group.self_scattering.resize(quantities.wave_numbers.size());
-  if (group.rotors > 0) group.orientation.resize(quantities.axes * quantities.orders.size());
+  if (quantities.parts.scattering) group.self_scattering.resize(quantities.wave_numbers.size());
+  if (group.rotors > 0 && quantities.parts.orientation)
+    group.orientation.resize(quantities.axes * quantities.orders.size());
   for (std::size_t l = 0; l < lags.size(); ++l) {
     const LagSums<Dim>& sums = members.sums[l];
     const std::size_t n = group.particles;
+    for (std::size_t j = 0; j < group.self_scattering.size(); ++j)
+      group.self_scattering[j].push_back(sums.scattering()[j].estimate_of_decay(lags[l], n));
+    if (group.rotors > 0) evaluate_rotation(group, sums, lags[l]);
+    if (!quantities.parts.displacement) continue;
     group.translation.push_back(sums.translation().square.estimate(lags[l], n));
     group.quartic.push_back(sums.translation().quartic.estimate(lags[l], n));
     group.non_gaussian.push_back(
         sums.translation().non_gaussian(LagSums<Dim>::normal_translation, lags[l], n));
-    for (std::size_t j = 0; j < group.self_scattering.size(); ++j)
-      group.self_scattering[j].push_back(sums.scattering()[j].estimate_of_decay(lags[l], n));
-    if (group.rotors > 0) evaluate_rotation(group, sums, lags[l]);
   }
   return group;
+}
+
+/// Of the frames begin … end − 1 of an evenly sampled run.
+template <int Dim>
+HalfOfRun evaluate_half(const Members<Dim>& all, const std::vector<Lag>& lags, double longest_lag,
+                        std::size_t begin, std::size_t end) {
+  HalfOfRun half;
+  for (std::size_t l = 0; l < lags.size(); ++l) {
+    const Lag& lag = lags[l];
+    if (static_cast<double>(lag.frames) >
+        std::max(1.0, longest_lag * static_cast<double>(end - begin - 1)))
+      break;
+    const std::size_t from = (begin + lag.stride - 1) / lag.stride;
+    const std::size_t to = std::min((end - lag.frames - 1) / lag.stride + 1, lag.origins);
+    if (to <= from) break;
+    const LagSums<Dim>& sums = all.sums[l];
+    half.lag.push_back(lag.time);
+    const auto add_all = [&](std::vector<Correlation>& curves,
+                             const std::vector<CorrelationSum>& of, std::size_t n) {
+      curves.resize(of.size());
+      for (std::size_t j = 0; j < of.size(); ++j)
+        curves[j].push_back(of[j].of_origins(from, to).estimate_of_decay(lag, n));
+    };
+    if (sums.parts().displacement)
+      half.translation.push_back(
+          sums.translation().square.of_origins(from, to).estimate(lag, all.particles));
+    add_all(half.self_scattering, sums.scattering(), all.particles);
+    if (all.rotors > 0) add_all(half.orientation, sums.rotation().orientation, all.rotors);
+  }
+  return half;
 }
 
 void forget_rotation(DisplacementGroup& group) {
@@ -182,12 +218,10 @@ Displacements displacements(Trajectory<Dim>& trajectory, const DisplacementOptio
     throw UserError("displacements: the run holds " + std::to_string(times.size()) +
                     " frame(s); a displacement needs at least two");
   const std::vector<Lag> lags = time_axis_of_motion(trajectory, options.axis);
-  const Configuration<Dim>& first = trajectory.read(0);
+  const Configuration<Dim>& first = trajectory.read_places(0);
   const TrackQuantities<Dim> quantities{wave_numbers_or_main(options.wave_numbers, first),
-                                        orders_or_default(options.orders, Dim),
-                                        axis_count(first),
-                                        options.overlap_distance,
-                                        {}};
+                                        orders_or_default(options.orders, Dim), axis_count(first),
+                                        options.overlap_distance, options.parts};
   std::vector<Members<Dim>> species = species_of(first);
   const LikeParticles alike = like_particles(first);
   for (Members<Dim>& members : species)
@@ -198,6 +232,7 @@ Displacements displacements(Trajectory<Dim>& trajectory, const DisplacementOptio
 
   Displacements result;
   result.dimension = Dim;
+  result.parts = options.parts;
   result.wave_numbers = quantities.wave_numbers;
   result.orders = quantities.orders;
   result.axes = quantities.axes;
@@ -206,11 +241,15 @@ Displacements displacements(Trajectory<Dim>& trajectory, const DisplacementOptio
   for (std::size_t l = 0; l < lags.size(); ++l) {
     result.lag.push_back(lags[l].time);
     result.origins.push_back(lags[l].origins);
+    if (!options.parts.overlap) continue;
     const CorrelationSum& overlap = all.sums[l].overlap();
     result.overlap.push_back(overlap.estimate(lags[l], all.particles));
     result.susceptibility.push_back(susceptibility(overlap, lags[l], all.particles));
   }
   result.groups.push_back(evaluate(all, lags, quantities));
+  if (const std::size_t middle = times.size() / 2; middle >= 2 && evenly_spaced(times))
+    for (const auto& [begin, end] : {std::pair(std::size_t{0}, middle), {middle, times.size()}})
+      result.halves.push_back(evaluate_half(all, lags, options.axis.longest_lag, begin, end));
   std::erase_if(species, [](const Members<Dim>& members) { return members.particles == 0; });
   if (species.size() > 1)
     for (const Members<Dim>& members : species)

@@ -40,8 +40,16 @@ struct DisplacementGroup {
   std::vector<Correlation> orientation;
 };
 
+/// Curves of all particles from the frames of one half of the run alone, with errors by blocks or none.
+struct HalfOfRun {
+  std::vector<double> lag;
+  Correlation translation;
+  std::vector<Correlation> self_scattering, orientation;
+};
+
 struct Displacements {
   int dimension = 2;
+  MotionParts parts = {};            ///< what there is
   std::vector<double> lag;           ///< time differences t > 0
   std::vector<std::size_t> origins;  ///< time origins averaged over, for every lag
   std::vector<double> wave_numbers;  ///< those of self_scattering
@@ -51,6 +59,8 @@ struct Displacements {
   double overlap_distance = 0;       ///< that of overlap
   /// "all" first, then every species that has particles, if there is more than one.
   std::vector<DisplacementGroup> groups;
+  /// The earlier and the later half of an evenly sampled run; of fewer than four frames none.
+  std::vector<HalfOfRun> halves;
   /// ⟨Q⟩ of the overlap Q(t) = N⁻¹ Σ_i Θ(a − |Δr_i|), the share of particles that are still, or
   /// again, within a of where they were.
   Correlation overlap;

@@ -8,7 +8,14 @@
 
 namespace vitrel {
 
+/// What is measured of the motion of particles; the rest is left empty.
+struct MotionParts {
+  bool displacement = true;  ///< moments of displacements and rotations
+  bool scattering = true, orientation = true, overlap = true;
+};
+
 struct DisplacementOptions {
+  MotionParts parts = {};
   TimeAxisOptions axis = {};
   /// q of F_s and F; empty: that of main_wave_number alone.
   std::vector<double> wave_numbers = {};

@@ -8,24 +8,9 @@ namespace vitrel {
 
 namespace {
 
-/// Origins worked on at a time: all that belongs to them stays in the first cache.
-constexpr std::size_t chunk = 256;
-using Chunk = std::array<double, chunk>;
-
-template <std::size_t Count>
-double squared_change(const std::array<FrameSeries, Count>& series, std::size_t from,
-                      std::size_t to) {
-  double sum = 0;
-  for (const FrameSeries& component : series) {
-    const double change = component[to] - component[from];
-    sum += change * change;
-  }
-  return sum;
-}
-
 /// The polynomials Q_n of the orientational correlations ⟨Q_n(u(0)·u(t))⟩, n = 0, 1, 2 … at once:
 /// Chebyshev's T_n(cos Δθ) = cos nΔθ in the plane, Legendre's P_n in space.
-template <int Dim>
+template <int Dim, class Chunk>
 class Polynomials {
  public:
   Polynomials(const Chunk& x, std::size_t count) : x_(x), count_(count) {
@@ -59,27 +44,49 @@ class Polynomials {
 template <int Dim>
 class LagSums<Dim>::Part {
  public:
-  Part(const Lag& lag, std::size_t begin)
-      : first(begin), count(std::min(chunk, lag.origins - begin)), lag_(lag) {}
+  Part(const Lag& lag, const Path<Dim>& its_path, std::size_t begin)
+      : path(its_path), first(begin), count(std::min(chunk, lag.origins - begin)), lag_(lag) {}
 
-  /// values[k] = value(frame of origin k, frame one lag later).
-  template <class Value>
-  void at_frames(Chunk& values, Value&& value) const {
-    if (lag_.pairs.empty()) {
-      std::size_t from = first * lag_.stride;
-      for (std::size_t k = 0; k < count; ++k, from += lag_.stride)
-        values[k] = value(from, from + lag_.frames);
-    } else {
-      const FramePair* const pairs = &lag_.pairs[first];
-      for (std::size_t k = 0; k < count; ++k) values[k] = value(pairs[k].from, pairs[k].to);
+  /// The numbers of a series at the origins, and one lag later.
+  class Ends {
+   public:
+    Ends(const Part& part, const FrameSeries& series) {
+      const Lag& lag = part.lag_;
+      if (lag.pairs.empty()) {
+        from = &series[part.first];
+        to = &series[part.path.place(lag.frames) + part.first];
+        return;
+      }
+      for (std::size_t k = 0; k < part.count; ++k) {
+        const FramePair& pair = lag.pairs[part.first + k];
+        from_[k] = series[pair.from];
+        to_[k] = series[pair.to];
+      }
     }
-  }
-  template <class Value>
-  void at_origins(Chunk& values, Value&& value) const {
-    for (std::size_t k = 0; k < count; ++k) values[k] = value(k);
+    Ends(const Ends&) = delete;
+    Ends& operator=(const Ends&) = delete;
+
+    const double* from = from_.data();
+    const double* to = to_.data();
+
+   private:
+    Chunk from_, to_;
+  };
+
+  template <std::size_t Count>
+  void square_changes(Chunk& squares, const std::array<FrameSeries, Count>& series) const {
+    squares.fill(0);
+    for (const FrameSeries& component : series) {
+      const Ends ends(*this, component);
+      for (std::size_t k = 0; k < count; ++k) {
+        const double change = ends.to[k] - ends.from[k];
+        squares[k] += change * change;
+      }
+    }
   }
   std::span<const double> of(const Chunk& values) const { return {values.data(), count}; }
 
+  const Path<Dim>& path;
   const std::size_t first, count;
 
  private:
@@ -91,85 +98,95 @@ LagSums<Dim>::LagSums(const Lag& lag, const TrackQuantities<Dim>& quantities, bo
                       std::size_t classes)
     : lag_(&lag),
       quantities_(&quantities),
-      translation_(lag.origins, classes),
-      overlap_(lag.origins, classes),
-      scattering_(quantities.wave_numbers.size(), CorrelationSum(lag.origins, classes)) {
+      translation_(quantities.parts.displacement ? lag.origins : 0, classes),
+      overlap_(quantities.parts.overlap ? lag.origins : 0, classes) {
   const CorrelationSum empty(lag.origins, classes);
-  if (rotors)
-    rotation_ =
-        Rotation{empty, empty, MomentSum(lag.origins, classes),
-                 std::vector<CorrelationSum>(quantities.axes * quantities.orders.size(), empty)};
+  if (quantities.parts.scattering) scattering_.assign(quantities.wave_numbers.size(), empty);
+  if (!rotors) return;
+  const CorrelationSum moment(quantities.parts.displacement ? lag.origins : 0, classes);
+  rotation_ = Rotation{moment, moment, MomentSum(moment.per_origin().size(), classes), {}};
+  if (quantities.parts.orientation)
+    rotation_->orientation.assign(quantities.axes * quantities.orders.size(), empty);
 }
 
 template <int Dim>
 void LagSums<Dim>::add(const Path<Dim>& path, std::size_t its_class) {
   for (std::size_t begin = 0; begin < lag_->origins; begin += chunk) {
-    const Part part(*lag_, begin);
-    add_translation(path, part);
+    const Part part(*lag_, path, begin);
+    const MotionParts& parts = quantities_->parts;
+    Chunk squares;
+    if (parts.displacement || parts.scattering || parts.overlap)
+      part.square_changes(squares, path.position);
+    if (parts.displacement) add_displacement(part, squares);
+    if (parts.overlap) add_overlap(part, squares);
+    if (parts.scattering) add_scattering(part, squares);
     if (!path.is_rotor()) continue;
-    add_rotation(path, part);
-    add_orientation(path, part);
+    if (parts.displacement) add_rotation(part, squares);
+    if (parts.orientation) add_orientation(part);
   }
   finish_particle(path.is_rotor(), its_class);
 }
 
 template <int Dim>
-void LagSums<Dim>::add_translation(const Path<Dim>& path, const Part& part) {
-  Chunk squares, values;
-  part.at_frames(squares, [&](std::size_t from, std::size_t to) {
-    return squared_change(path.track->position, from, to);
-  });
-  part.at_origins(values, [&](std::size_t k) { return squares[k] * squares[k]; });
-  translation_.add(part.first, part.of(squares), part.of(values));
+void LagSums<Dim>::add_displacement(const Part& part, const Chunk& squares) {
+  Chunk fourth_powers;
+  for (std::size_t k = 0; k < part.count; ++k) fourth_powers[k] = squares[k] * squares[k];
+  translation_.add(part.first, part.of(squares), part.of(fourth_powers));
+}
+
+template <int Dim>
+void LagSums<Dim>::add_overlap(const Part& part, const Chunk& squares) {
   const double near = quantities_->overlap_distance * quantities_->overlap_distance;
-  part.at_origins(values, [&](std::size_t k) { return squares[k] < near ? 1.0 : 0.0; });
+  Chunk values;
+  for (std::size_t k = 0; k < part.count; ++k) values[k] = squares[k] < near ? 1.0 : 0.0;
   overlap_.add(part.first, part.of(values));
-  Chunk distances;
-  part.at_origins(distances, [&](std::size_t k) { return std::sqrt(squares[k]); });
+}
+
+template <int Dim>
+void LagSums<Dim>::add_scattering(const Part& part, const Chunk& squares) {
+  Chunk distances, values;
+  for (std::size_t k = 0; k < part.count; ++k) distances[k] = std::sqrt(squares[k]);
   for (std::size_t j = 0; j < scattering_.size(); ++j) {
     const double q = quantities_->wave_numbers[j];
-    part.at_origins(
-        values, [&](std::size_t k) { return quantities_->direction_average(q * distances[k]); });
+    for (std::size_t k = 0; k < part.count; ++k)
+      values[k] = quantities_->direction_average(q * distances[k]);
     scattering_[j].add(part.first, part.of(values));
   }
 }
 
 template <int Dim>
-void LagSums<Dim>::add_rotation(const Path<Dim>& path, const Part& part) {
-  const auto& position = path.track->position;
-  const DirectionSeries<Dim>& axis = path.directions.front();
-  Chunk values, fourth_powers;
-  part.at_frames(values, [&](std::size_t from, std::size_t to) {
-    double along = 0;
-    for (std::size_t d = 0; d < Dim; ++d)
-      along += axis[d][from] * (position[d][to] - position[d][from]);
-    return along * along;
-  });
+void LagSums<Dim>::add_rotation(const Part& part, const Chunk& squares) {
+  const Path<Dim>& path = part.path;
+  Chunk values, others;
+  values.fill(0);
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const typename Part::Ends place(part, path.position[d]);
+    const typename Part::Ends axis(part, path.directions.front()[d]);
+    for (std::size_t k = 0; k < part.count; ++k)
+      values[k] += axis.from[k] * (place.to[k] - place.from[k]);
+  }
+  for (std::size_t k = 0; k < part.count; ++k) {
+    values[k] *= values[k];
+    others[k] = squares[k] - values[k];
+  }
   rotation_->parallel.add(part.first, part.of(values));
-  Chunk squares;
-  part.at_frames(squares, [&](std::size_t from, std::size_t to) {
-    return squared_change(position, from, to);
-  });
-  part.at_origins(values, [&](std::size_t k) { return squares[k] - values[k]; });
-  rotation_->perpendicular.add(part.first, part.of(values));
-  part.at_frames(values, [&](std::size_t from, std::size_t to) {
-    return squared_change(path.turn, from, to);
-  });
-  part.at_origins(fourth_powers, [&](std::size_t k) { return values[k] * values[k]; });
-  rotation_->turn.add(part.first, part.of(values), part.of(fourth_powers));
+  rotation_->perpendicular.add(part.first, part.of(others));
+  part.square_changes(values, path.turn);
+  for (std::size_t k = 0; k < part.count; ++k) others[k] = values[k] * values[k];
+  rotation_->turn.add(part.first, part.of(values), part.of(others));
 }
 
 template <int Dim>
-void LagSums<Dim>::add_orientation(const Path<Dim>& path, const Part& part) {
+void LagSums<Dim>::add_orientation(const Part& part) {
   std::size_t next = 0;
-  for (const DirectionSeries<Dim>& axis : path.directions) {
+  for (const DirectionSeries<Dim>& axis : part.path.directions) {
     Chunk cosines;
-    part.at_frames(cosines, [&](std::size_t from, std::size_t to) {
-      double cosine = 0;
-      for (std::size_t d = 0; d < Dim; ++d) cosine += axis[d][from] * axis[d][to];
-      return cosine;
-    });
-    Polynomials<Dim> polynomials(cosines, part.count);
+    cosines.fill(0);
+    for (const FrameSeries& component : axis) {
+      const typename Part::Ends ends(part, component);
+      for (std::size_t k = 0; k < part.count; ++k) cosines[k] += ends.from[k] * ends.to[k];
+    }
+    Polynomials<Dim, Chunk> polynomials(cosines, part.count);
     for (const double n : quantities_->orders)
       rotation_->orientation[next++].add(part.first, part.of(polynomials.of(n)));
   }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "analysis/dynamics/bessel_j0.h"
 #include "analysis/dynamics/correlation.h"
+#include "analysis/dynamics/displacement_options.h"
 #include "analysis/dynamics/path.h"
 #include "analysis/dynamics/time_axis.h"
 
@@ -17,7 +19,8 @@ struct TrackQuantities {
   std::vector<double> wave_numbers, orders;
   std::size_t axes;  ///< whose directions are correlated
   double overlap_distance;
-  DirectionAverage<Dim> direction_average;
+  MotionParts parts;
+  DirectionAverage<Dim> direction_average = {};
 };
 
 /// Sums over particles that are told apart by their class (LikeParticles) for the errors only.
@@ -35,6 +38,7 @@ class LagSums {
     MomentSum turn;
     std::vector<CorrelationSum> orientation;  ///< all orders of the first axis, of the second …
   };
+  const MotionParts& parts() const { return quantities_->parts; }
   const MomentSum& translation() const { return translation_; }
   const CorrelationSum& overlap() const { return overlap_; }
   const std::vector<CorrelationSum>& scattering() const { return scattering_; }
@@ -45,10 +49,15 @@ class LagSums {
   static constexpr double normal_rotation = Path<Dim>::rotations / (Path<Dim>::rotations + 2.0);
 
  private:
+  /// Origins worked on at a time: all that belongs to them stays in the first cache.
+  static constexpr std::size_t chunk = 256;
+  using Chunk = std::array<double, chunk>;
   class Part;
-  void add_translation(const Path<Dim>& path, const Part& part);
-  void add_rotation(const Path<Dim>& path, const Part& part);
-  void add_orientation(const Path<Dim>& path, const Part& part);
+  void add_displacement(const Part& part, const Chunk& squares);
+  void add_overlap(const Part& part, const Chunk& squares);
+  void add_scattering(const Part& part, const Chunk& squares);
+  void add_rotation(const Part& part, const Chunk& squares);
+  void add_orientation(const Part& part);
   void finish_particle(bool rotor, std::size_t its_class);
 
   const Lag* lag_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "analysis/structure/orientation_tensor.h"
 
@@ -37,9 +38,9 @@ FrameSeries unwrapped(FrameSeries angle, double period, double& largest_turn) {
   return angle;
 }
 
-void follow(Path<2>& path, const Ellipse&, std::size_t) {
-  const FrameSeries& angle = path.track->orientation[0];
-  const double period = path.track->turn_period;
+void follow(Path<2>& path, const Track<2>& track, const Ellipse&, std::size_t) {
+  const FrameSeries& angle = track.orientation[0];
+  const double period = track.turn_period;
   path.turn[0] = period == 0 ? angle : unwrapped(angle, period, path.largest_turn);
   DirectionSeries<2>& axis = path.directions.emplace_back();
   for (const double theta : angle) {
@@ -48,15 +49,14 @@ void follow(Path<2>& path, const Ellipse&, std::size_t) {
   }
 }
 
-void follow(Path<3>& path, const Ellipsoid& shape, std::size_t axes) {
+void follow(Path<3>& path, const Track<3>& track, const Ellipsoid& shape, std::size_t axes) {
   const std::vector<Vec3> in_body = body_axes(shape, axes);
   path.directions.resize(in_body.size());
   Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < path.track->orientation[0].size(); ++k) {
-    const Quaternion orientation = orientation_at(*path.track, k);
+  for (std::size_t k = 0; k < track.orientation[0].size(); ++k) {
+    const Quaternion orientation = orientation_at(track, k);
     if (k > 0) {
-      const Vec3 turn =
-          rotation_vector(orientation * orientation_at(*path.track, k - 1).conjugate());
+      const Vec3 turn = rotation_vector(orientation * orientation_at(track, k - 1).conjugate());
       path.largest_turn = std::max(path.largest_turn, turn.norm());
       sum += turn;
     }
@@ -92,9 +92,20 @@ std::size_t axis_count(const Configuration3& configuration) {
 }
 
 template <int Dim>
-Path<Dim>::Path(const Track<Dim>& its_track, const Solid<Dim>& shape, std::size_t axes)
-    : track(&its_track) {
-  if (!shape.is_round()) follow(*this, shape, axes);
+Path<Dim>::Path(Track<Dim> track, const Solid<Dim>& shape, std::size_t axes, std::size_t its_stride)
+    : stride(its_stride), column((track.position[0].size() + stride - 1) / stride) {
+  if (!shape.is_round()) follow(*this, track, shape, axes);
+  position = std::move(track.position);
+  if (stride == 1) return;
+  const auto regroup = [this](FrameSeries& series) {
+    FrameSeries grouped(column * stride);
+    for (std::size_t k = 0; k < series.size(); ++k) grouped[place(k)] = series[k];
+    series = std::move(grouped);
+  };
+  std::ranges::for_each(position, regroup);
+  if (!is_rotor()) return;
+  std::ranges::for_each(turn, regroup);
+  for (DirectionSeries<Dim>& axis : directions) std::ranges::for_each(axis, regroup);
 }
 
 template struct Path<2>;

@@ -35,12 +35,16 @@ template <int Dim>
 struct Path {
   static constexpr std::size_t rotations = Dim == 2 ? 1 : 3;
 
-  /// `axes` as given by axis_count; `its_track` must outlive the path.
-  Path(const Track<Dim>& its_track, const Solid<Dim>& shape, std::size_t axes);
+  /// `axes` as given by axis_count. Of frames first, first + stride … the numbers lie one after the other, for first = 0,
+  /// then 1 …: origins and ends of a time difference are then two pieces of memory.
+  Path(Track<Dim> track, const Solid<Dim>& shape, std::size_t axes, std::size_t stride = 1);
 
   bool is_rotor() const { return !directions.empty(); }
+  /// Where the number of a frame is.
+  std::size_t place(std::size_t frame) const { return frame % stride * column + frame / stride; }
 
-  const Track<Dim>* track;
+  std::size_t stride, column;
+  std::array<FrameSeries, Dim> position;         ///< unwrapped
   std::array<FrameSeries, rotations> turn;       ///< the angle, or the rotation vector
   std::vector<DirectionSeries<Dim>> directions;  ///< of the axes
   double largest_turn =

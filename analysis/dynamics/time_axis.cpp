@@ -19,23 +19,17 @@ std::size_t stride_to(std::size_t most, std::size_t available) {
   return (available + most - 1) / most;
 }
 
-Lag even_lag(std::size_t frames, double time, std::size_t samples, std::size_t max_origins) {
-  const std::size_t available = samples - frames;
-  const std::size_t stride = stride_to(max_origins, available);
-  return {frames, stride, (available - 1) / stride + 1, time};
-}
-
 std::vector<Lag> even_lags(std::span<const double> times, const TimeAxisOptions& options) {
   const double intervals = static_cast<double>(times.size() - 1);
   const auto longest =
       std::max<std::size_t>(1, static_cast<std::size_t>(options.longest_lag * intervals));
   const double growth = std::pow(10, 1 / static_cast<double>(options.lags_per_decade));
-  const std::size_t max_origins = options.only_first_origin ? 1 : options.max_origins;
+  const std::size_t stride = even_stride(times.size(), options);
   std::vector<Lag> lags;
   double next = 1;
   for (std::size_t frames = 1; frames <= longest;) {
     const double time = (times.back() - times.front()) * static_cast<double>(frames) / intervals;
-    lags.push_back(even_lag(frames, time, times.size(), max_origins));
+    lags.push_back({frames, stride, (times.size() - frames - 1) / stride + 1, time});
     if (frames < options.every_lag_up_to) {
       next = static_cast<double>(++frames);
     } else {
@@ -164,6 +158,10 @@ std::vector<Lag> uneven_lags(std::span<const double> times, const TimeAxisOption
 }
 
 }  // namespace
+
+std::size_t even_stride(std::size_t frames, const TimeAxisOptions& options) {
+  return stride_to(options.only_first_origin ? 1 : options.max_origins, frames);
+}
 
 double Lag::shortest_block() const {
   if (!pairs.empty()) return static_cast<double>(pairs_per_block);

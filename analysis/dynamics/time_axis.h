@@ -51,7 +51,7 @@ struct Lag {
 /// The lags of a run with these sample times, ascending, without 0. Empty for fewer than two frames.
 ///
 /// Evenly sampled: 1 … `every_lag_up_to` sample intervals, then logarithmically spaced ones up to
-/// `longest_lag`; all frames are origins, evenly thinned to `max_origins` per lag.
+/// `longest_lag`; all frames are origins, evenly thinned to `max_origins`, the same ones for all lags (even_stride).
 ///
 /// Any other run, such as logarithmic samples, once or in cycles:
 /// 1. Time differences of pairs of frames are equal if rounding to single precision can account for
@@ -66,6 +66,9 @@ struct Lag {
 /// and 2²²/frames origins of longer runs, which should comprise a cycle. Cost about (lags) × (frames),
 /// and a second for the pairs.
 std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions& options = {});
+
+/// Of an evenly sampled run every so many frames one is an origin.
+std::size_t even_stride(std::size_t frames, const TimeAxisOptions& options);
 
 /// The lags at which the motion of particles can be evaluated. If the run is not evenly sampled, pairs of frames with a
 /// doubtful frame between them, or at their end, are left out, and so are lags without a pair. An evenly sampled run

@@ -29,7 +29,7 @@ std::vector<Track<Dim>> read_tracks(Trajectory<Dim>& trajectory, std::size_t beg
     track.turn_period = trajectory.turn_period();
   }
   for (std::size_t k = 0; k < frames; ++k) {
-    const Configuration<Dim>& frame = trajectory.read(k);
+    const Configuration<Dim>& frame = trajectory.read_places(k);
     for (std::size_t i = begin; i < end; ++i) {
       const Vec<Dim> position = frame.unwrapped(i);
       Track<Dim>& track = tracks[i - begin];

@@ -10,75 +10,45 @@ namespace {
 
 constexpr double nematic_order_of_l = 2;  // the n of L_n that is judged
 
-/// Null if it was not measured.
-const Correlation* l_2(const Displacements& found) {
+/// Of the orders of the first axis; none if it was not measured.
+std::optional<std::size_t> index_of_l_2(const Displacements& found) {
   const auto order = std::find(found.orders.begin(), found.orders.end(), nematic_order_of_l);
-  const std::vector<Correlation>& orientation = found.groups.front().orientation;
   const auto index = static_cast<std::size_t>(order - found.orders.begin());
-  return index < orientation.size() ? &orientation[index] : nullptr;
+  if (index >= found.groups.front().orientation.size()) return std::nullopt;
+  return index;
 }
 
 Decay decay(const std::vector<double>& lag, const Correlation& correlation) {
   return {lag, correlation.value, correlation.error};
 }
 
-BlockedCurve blocked(const Displacements& found, const Correlation& correlation) {
-  return {found.lag, correlation.value, correlation.error, correlation.blocks};
-}
-
-/// L_2 alone, and F_s at the first of the wave numbers.
-DisplacementOptions of_glass(DisplacementOptions options, const Displacements& found) {
-  options.wave_numbers = {found.wave_numbers.front()};
+/// L_2 alone.
+DisplacementOptions of_orientation(DisplacementOptions options) {
+  options.parts = {.displacement = false, .scattering = false, .overlap = false};
   options.orders = {nematic_order_of_l};
   return options;
 }
 
-/// Passes over all particles, told as one piece of work.
-class Passes {
- public:
-  Passes(std::size_t count, std::size_t particles, const ProgressReport& report)
-      : count_(static_cast<double>(count)),
-        particles_(static_cast<double>(particles)),
-        report_(report) {}
-
-  ProgressReport next() {
-    if (!report_) return {};
-    return [this, before = begun_++](const Progress& pass) {
-      report_({(before + pass.fraction) / count_, before * particles_ + pass.value, pass.quantity});
-    };
-  }
-
- private:
-  double count_, particles_;
-  double begun_ = 0;
-  const ProgressReport& report_;
-};
-
-/// L_2 from a pass of its own.
-template <int Dim>
-Decay orientation(Trajectory<Dim>& seen, const DisplacementOptions& options,
-                  const ProgressReport& report) {
-  const Displacements found = displacements(seen, options, report);
-  return decay(found.lag, *l_2(found));
+BlockedCurve blocked(const HalfOfRun& half, const Correlation& correlation) {
+  return {half.lag, correlation.value, correlation.error, correlation.blocks};
 }
 
-template <int Dim>
-void add_halves(GlassRunData& data, Trajectory<Dim>& trajectory, const DisplacementOptions& options,
-                Passes& passes) {
-  const std::size_t middle = trajectory.frames() / 2;
-  if (middle < 2) return;
-  TrajectoryPart<Dim> early(trajectory, 0, middle);
-  TrajectoryPart<Dim> late(trajectory, middle, trajectory.frames());
-  const Displacements first = displacements(early, options, passes.next());
-  const Displacements second = displacements(late, options, passes.next());
-  const DisplacementGroup& before = first.groups.front();
-  const DisplacementGroup& after = second.groups.front();
-  data.halves = {{"the mean squared displacement", blocked(first, before.translation),
-                  blocked(second, after.translation)},
-                 {"F_s", blocked(first, before.self_scattering.front()),
-                  blocked(second, after.self_scattering.front())}};
-  if (const Correlation* l = l_2(first))
-    data.rotation_halves = {{"L_2", blocked(first, *l), blocked(second, *l_2(second))}};
+void add_halves(GlassRunData& data, const Displacements& found) {
+  if (found.halves.empty()) return;
+  const HalfOfRun &first = found.halves[0], &second = found.halves[1];
+  data.halves = {{"the mean squared displacement", blocked(first, first.translation),
+                  blocked(second, second.translation)},
+                 {"F_s", blocked(first, first.self_scattering.front()),
+                  blocked(second, second.self_scattering.front())}};
+}
+
+void add_orientation(GlassRunData& data, const Displacements& found) {
+  const std::size_t l = *index_of_l_2(found);
+  data.orientation = decay(found.lag, found.groups.front().orientation[l]);
+  if (found.halves.empty()) return;
+  const HalfOfRun &first = found.halves[0], &second = found.halves[1];
+  data.rotation_halves = {
+      {"L_2", blocked(first, first.orientation[l]), blocked(second, second.orientation[l])}};
 }
 
 /// What there is without another pass, but for L_2.
@@ -115,17 +85,17 @@ std::optional<GlassRunData> glass_run_data(Trajectory<Dim>& trajectory, const Gl
                                            const ProgressReport& report) {
   if (!evenly_spaced(trajectory.times())) return std::nullopt;
   const Displacements& found = run.displacements;
-  const DisplacementOptions wanted = of_glass(options, found);
   GlassRunData data = known_data(run, Dim, trajectory.times());
-  std::optional<DirectorFrame<Dim>> director;
-  if (is_nematic(data)) director.emplace(trajectory);
-  Trajectory<Dim>& seen = director ? *director : trajectory;
-  const Correlation* measured = director ? nullptr : l_2(found);
-  const bool is_missing = run.rotors > 0 && !measured;
-  Passes passes(is_missing ? 3 : 2, trajectory.read(0).size(), report);
-  if (measured) data.orientation = decay(found.lag, *measured);
-  if (is_missing) data.orientation = orientation(seen, wanted, passes.next());
-  add_halves(data, seen, wanted, passes);
+  add_halves(data, found);
+  if (run.rotors == 0) return data;
+  if (is_nematic(data)) {
+    DirectorFrame<Dim> seen_from_director(trajectory);
+    add_orientation(data, displacements(seen_from_director, of_orientation(options), report));
+  } else if (index_of_l_2(found)) {
+    add_orientation(data, found);
+  } else {
+    add_orientation(data, displacements(trajectory, of_orientation(options), report));
+  }
   return data;
 }
 

@@ -126,7 +126,8 @@ Observable displacement_observable(int dimension) {
                                   {"msd_parallel", "⟨Δr²⟩ along the axis"},
                                   {"msd_perpendicular", "⟨Δr²⟩ across the axis"}}),
                      std::move(rotation), std::move(non_gaussian)},
-          .has_groups = true};
+          .has_groups = true,
+          .also = {"msd", "msr"}};
 }
 
 Table scattering_table(const Displacements& found, const DisplacementGroup& group) {
@@ -147,7 +148,8 @@ Observable scattering_observable() {
           .needs = {.motion = true},
           .charts = {at_wave_numbers(
               correlation("Self-intermediate scattering", "Fₛ(q, t)", {{"fs_#", "#"}}))},
-          .has_groups = true};
+          .has_groups = true,
+          .also = {"fs"}};
 }
 
 Table orientation_table(const Displacements& found, const DisplacementGroup& group) {
@@ -202,7 +204,8 @@ Observable susceptibility_observable() {
           "susceptibility.",
       .needs = {.motion = true},
       .charts = {against_time(relaxation, "Four-point susceptibility", "χ₄(t)", {{"chi_4", "χ₄"}}),
-                 against_time(relaxation, "Overlap", "⟨Q(t)⟩", {{"overlap", "⟨Q⟩"}}, decay)}};
+                 against_time(relaxation, "Overlap", "⟨Q(t)⟩", {{"overlap", "⟨Q⟩"}}, decay)},
+      .also = {"overlap", "chi_4"}};
 }
 
 Table cage_relative_table(const CageRelative& found, double overlap_distance) {
@@ -344,12 +347,15 @@ Table wave_number_table(const RunDynamics& dynamics) {
       {}};
   Column index{"index", "1", {}, {}}, shell{"q_collective", "1/length", {}, {}},
       modes{"modes", "1", {}, {}};
-  for (std::size_t k = 0; k < dynamics.collective.modes.size(); ++k) {
+  const std::vector<double>& wave_numbers = dynamics.displacements.wave_numbers;
+  for (std::size_t k = 0; k < wave_numbers.size(); ++k)
     index.value.push_back(static_cast<double>(k + 1));
+  for (std::size_t k = 0; k < dynamics.collective.modes.size(); ++k) {
     shell.value.push_back(dynamics.collective.wave_numbers[k]);
     modes.value.push_back(static_cast<double>(dynamics.collective.modes[k]));
   }
-  table.columns = {index, {"q", "1/length", dynamics.displacements.wave_numbers, {}}, shell, modes};
+  table.columns = {index, {"q", "1/length", wave_numbers, {}}};
+  if (!modes.value.empty()) table.columns.insert(table.columns.end(), {shell, modes});
   return table;
 }
 
@@ -378,15 +384,17 @@ std::vector<Table> dynamics_tables(const RunDynamics& dynamics) {
   const Displacements& found = dynamics.displacements;
   std::vector<Table> tables;
   for (const DisplacementGroup& group : found.groups) {
-    tables.push_back(displacement_table(found, group));
-    tables.push_back(scattering_table(found, group));
-    if (group.rotors > 0) tables.push_back(orientation_table(found, group));
+    if (found.parts.displacement) tables.push_back(displacement_table(found, group));
+    if (found.parts.scattering) tables.push_back(scattering_table(found, group));
+    if (found.parts.orientation && group.rotors > 0)
+      tables.push_back(orientation_table(found, group));
   }
   if (dynamics.cage_relative)
     tables.push_back(cage_relative_table(*dynamics.cage_relative, found.overlap_distance));
   tables.push_back(wave_number_table(dynamics));
-  tables.push_back(collective_table(dynamics.collective));
-  if (std::ranges::any_of(found.origins, [](std::size_t n) { return n > 1; }))
+  if (!dynamics.collective.lag.empty()) tables.push_back(collective_table(dynamics.collective));
+  if (found.parts.overlap &&
+      std::ranges::any_of(found.origins, [](std::size_t n) { return n > 1; }))
     tables.push_back(susceptibility_table(found));
   if (!dynamics.ageing.empty()) {
     tables.push_back(ageing_table(dynamics.ageing));

@@ -17,7 +17,7 @@ namespace vitrel {
 /// The time correlations of a run.
 struct RunDynamics {
   Displacements displacements;
-  CollectiveScattering collective;                 ///< at the wave numbers of the displacements
+  CollectiveScattering collective = {};  ///< at the wave numbers of the displacements; may be empty
   std::optional<CageRelative> cage_relative = {};  ///< in two dimensions, at the same wave numbers
   std::vector<AgedMotion> ageing = {};             ///< for every waiting time
 };

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,10 @@ struct FrameResults {
   OrderSeries order;
 };
 
+/// How many frames averages are taken over: a frame of many particles says more. At least 64 of those that were asked for, for
+/// errors by blocks in time.
+std::size_t frames_for(std::size_t particles, const StructureOptions& options);
+
 /// Frames are read one after another and measured on up to `threads` threads, some at a time; the results do
 /// not depend on it. `report` is called with the share of the frames that are done. Only observables with a
 /// table of `only`, if that is not empty.
@@ -64,8 +69,8 @@ FrameResults measure_frames(Trajectory<Dim>& trajectory, const StructureOptions&
                             int threads = all_cores, const ProgressReport& report = {},
                             const std::vector<std::string>& only = {});
 
-/// A column with the averages of a row over the frames.
+/// A column with the averages of a row over the frames; `slower` as FrameAverage has it.
 Column averaged(const std::string& name, const std::string& unit, const FrameAverage& rows,
-                bool is_even);
+                bool is_even, std::span<const double> slower = {});
 
 }  // namespace vitrel

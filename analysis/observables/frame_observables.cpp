@@ -82,15 +82,22 @@ std::vector<Observable> frame_observables() {
   return tables;
 }
 
+std::size_t frames_for(std::size_t particles, const StructureOptions& options) {
+  constexpr std::size_t particles_at_all = 5'000'000, fewest = 64;
+  const std::size_t wanted =
+      options.max_frames > 0 ? options.max_frames : StructureOptions{}.max_frames;
+  return std::min(wanted, std::max(fewest, particles_at_all / std::max<std::size_t>(1, particles)));
+}
+
 template <int Dim>
 FrameResults measure_frames(Trajectory<Dim>& trajectory, const StructureOptions& options,
                             int threads, const ProgressReport& report,
                             const std::vector<std::string>& only) {
-  const FrameObservables<Dim> observables = observables_of(trajectory.read(0), options, only);
+  const Configuration<Dim>& first = trajectory.read(0);
+  const FrameObservables<Dim> observables = observables_of(first, options, only);
   if (observables.empty()) return {};
   const std::size_t frames = trajectory.frames();
-  const std::size_t max_frames =
-      options.max_frames > 0 ? options.max_frames : StructureOptions{}.max_frames;
+  const std::size_t max_frames = frames_for(first.size(), options);
   const std::size_t stride = (frames + max_frames - 1) / max_frames;
   std::vector<double> times;
   for (std::size_t next = 0; next < frames;) {
@@ -113,8 +120,8 @@ FrameResults measure_frames(Trajectory<Dim>& trajectory, const StructureOptions&
 }
 
 Column averaged(const std::string& name, const std::string& unit, const FrameAverage& rows,
-                bool is_even) {
-  Averages averages = rows.averages(is_even);
+                bool is_even, std::span<const double> slower) {
+  Averages averages = rows.averages(is_even, slower);
   return {name, unit, std::move(averages.mean), std::move(averages.error)};
 }
 

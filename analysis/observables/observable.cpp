@@ -1,8 +1,15 @@
 #include "analysis/observables/observable.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ranges>
+
 #include "analysis/observables/dynamics_tables.h"
 #include "analysis/observables/energy_tables.h"
 #include "analysis/observables/frame_observable.h"
+#include "core/error.h"
+#include "core/io/suggestion.h"
 
 namespace vitrel {
 namespace {
@@ -40,6 +47,31 @@ const Observable* find(const std::vector<Observable>& all, std::string_view tabl
           (groups ? table.starts_with(observable.table + "_") : table == observable.table))
         return &observable;
   return nullptr;
+}
+
+TableChoice::TableChoice(std::string_view names) {
+  for (const auto part : std::views::split(names, ',')) {
+    std::string name(part.begin(), part.end());
+    std::erase(name, ' ');
+    std::vector<std::string> known;
+    for (const int dimension : {2, 3})
+      for (const Observable& observable : observables(dimension)) {
+        known.push_back(observable.table);
+        known.insert(known.end(), observable.also.begin(), observable.also.end());
+        if (observable.table == name ||
+            std::ranges::find(observable.also, name) != observable.also.end())
+          tables_.push_back(observable.table);
+      }
+    if (std::ranges::find(known, name) == known.end())
+      throw UserError(fmt::format("names the table \"{}\", which `vitrel analyze --list` does not have{}",
+                                  name, suggestion(name, known)));
+  }
+}
+
+bool TableChoice::has(std::initializer_list<std::string_view> tables) const {
+  return tables_.empty() || std::ranges::any_of(tables, [&](std::string_view table) {
+           return std::ranges::find(tables_, table) != tables_.end();
+         });
 }
 
 std::vector<Observable> observables(int dimension) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,10 +64,27 @@ struct Observable {
   Needs needs = {};
   std::vector<Chart> charts = {};
   bool has_groups = false;
+  std::vector<std::string> also = {};  ///< what it may be called where tables are chosen: "msd"
 };
 
 /// What the table of that name is; null if it is none of these.
 const Observable* find(const std::vector<Observable>& all, std::string_view table);
+
+/// The tables that are asked for.
+class TableChoice {
+ public:
+  /// Names of tables without their group, or other names that they have (Observable::also), separated by commas; empty: all.
+  /// Throws UserError for a name that no table has.
+  explicit TableChoice(std::string_view names);
+
+  /// Whether one of these is asked for.
+  bool has(std::initializer_list<std::string_view> tables) const;
+  /// Empty: all.
+  const std::vector<std::string>& tables() const { return tables_; }
+
+ private:
+  std::vector<std::string> tables_;
+};
 
 /// All tables of the analysis of a run in so many dimensions, in the order in which the results have them.
 std::vector<Observable> observables(int dimension);

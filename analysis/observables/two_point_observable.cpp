@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "analysis/observables/frame_observable.h"
+#include "analysis/structure/orientation_tensor.h"
 #include "analysis/structure/two_point.h"
 
 namespace vitrel {
@@ -11,14 +12,18 @@ constexpr const char* path_names[] = {"lineal_path_x", "lineal_path_y", "lineal_
 
 class TwoPointObservable final : public FrameObservable<3> {
  public:
-  explicit TwoPointObservable(const Configuration3& first) : grid_(first) {}
+  explicit TwoPointObservable(const Configuration3& first)
+      : grid_(first), has_rotors_(rotor_count(first) > 0) {}
 
   std::function<void()> measure(const Configuration3& frame) override {
-    return [this, found = grid_.measure(frame)] {
+    return [this, found = grid_.measure(frame), axes = orientation_tensor(frame).matrix] {
       spacing_ = found.spacing;
       distance_ = found.distance;
       probability_.add(found.probability);
-      for (std::size_t k = 0; k < 3; ++k) paths_[k].add(found.lineal_path[k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        paths_[k].add(found.lineal_path[k]);
+        along_[k].push_back(axes(static_cast<int>(k), static_cast<int>(k)));
+      }
     };
   }
 
@@ -31,16 +36,20 @@ class TwoPointObservable final : public FrameObservable<3> {
                     spacing_),
         {{"r", "length", distance_, {}}, averaged("s2", "1", probability_, is_even)}};
     for (std::size_t k = 0; k < 3; ++k)
-      table.columns.push_back(averaged(path_names[k], "1", paths_[k], is_even));
+      table.columns.push_back(averaged(path_names[k], "1", paths_[k], is_even,
+                                       has_rotors_ ? along_[k] : std::span<const double>()));
     return {table};
   }
 
  private:
   TwoPointGrid grid_;
+  bool has_rotors_;
   double spacing_ = 0;
   std::vector<double> distance_;
   FrameAverage probability_;
   std::array<FrameAverage, 3> paths_;
+  /// ⟨w_k²⟩ of the axes w of all bodies, in every frame: paths along an axis are as slow.
+  std::array<std::vector<double>, 3> along_;
 };
 
 }  // namespace

@@ -69,11 +69,11 @@ std::size_t correlation_steps(std::span<const double> series) {
   return lag;
 }
 
-Estimate slow_average(std::span<const double> series) {
-  const Estimate plateau = block_average(series);
+Estimate slow_average(std::span<const double> series, std::size_t shortest_block) {
+  const Estimate plateau = block_average(series, static_cast<double>(shortest_block));
   if (plateau.blocks > 0) return plateau;
   const std::size_t steps = correlation_steps(series);
-  const std::size_t block = std::max<std::size_t>(1, 2 * steps);
+  const std::size_t block = std::max(shortest_block, 2 * steps);
   return known_block_average(series, block, seen_of_exponential(block, static_cast<double>(steps)));
 }
 

@@ -12,7 +12,8 @@ namespace vitrel {
 namespace {
 
 /// The weighted mean of one number; `value` is 0 where there is no weight.
-Estimate weighted_average(const std::vector<double>& value, const std::vector<double>& weight) {
+Estimate weighted_average(const std::vector<double>& value, const std::vector<double>& weight,
+                          std::size_t shortest_block) {
   const double frames = static_cast<double>(value.size());
   double sum = 0, weights = 0;
   for (std::size_t k = 0; k < value.size(); ++k) {
@@ -24,7 +25,7 @@ Estimate weighted_average(const std::vector<double>& value, const std::vector<do
   std::vector<double> deviation;
   for (std::size_t k = 0; k < value.size(); ++k)
     deviation.push_back(weight[k] * (value[k] - mean) * frames / weights);
-  Estimate estimate = slow_average(deviation);
+  Estimate estimate = slow_average(deviation, shortest_block);
   estimate.mean = mean;
   return estimate;
 }
@@ -43,7 +44,13 @@ void FrameAverage::add(std::span<const double> row) {
   add(row, std::vector<double>(row.size(), 1.0));
 }
 
-Averages FrameAverage::averages(bool even) const {
+Averages FrameAverage::averages(bool even, std::span<const double> slower) const {
+  std::size_t shortest_block = 1;
+  if (even && !slower.empty()) {
+    const std::size_t blocks = slow_average(slower).blocks;
+    even = blocks > 0;
+    if (even) shortest_block = slower.size() / blocks;
+  }
   std::size_t places = 0;
   for (const std::vector<double>& row : rows_) places = std::max(places, row.size());
   Averages result;
@@ -54,7 +61,7 @@ Averages FrameAverage::averages(bool even) const {
       value.push_back(missing ? 0 : rows_[k][place]);
       weight.push_back(missing ? 0 : weights_[k][place]);
     }
-    const Estimate estimate = weighted_average(value, weight);
+    const Estimate estimate = weighted_average(value, weight, shortest_block);
     result.mean.push_back(estimate.mean);
     result.error.push_back(even ? estimate.error : unknown);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -22,8 +23,9 @@ class FrameAverage {
 
   /// ⟨w x⟩/⟨w⟩ for every place of the row, NaN where there is no weight. The error is that of a
   /// ratio: that of a slow series (slow_average in blocking.h), w_k (x_k − mean)/⟨w⟩. It is NaN if the frames are
-  /// not evenly spaced in time, `even` then being false, or too few.
-  Averages averages(bool even) const;
+  /// not evenly spaced in time, `even` then being false, or too few. Of what follows a slower series it is NaN if that
+  /// has no error, and else from blocks as long as those of that series.
+  Averages averages(bool even, std::span<const double> slower = {}) const;
 
  private:
   std::vector<std::vector<double>> rows_, weights_;

@@ -12,7 +12,8 @@ namespace vitrel {
 
 namespace {
 
-constexpr std::size_t max_origins = 4096;
+/// Of pairs, each from one of so many origins: all up to 4096 particles, and so many pairs beyond some 30 000.
+constexpr std::size_t max_origins = 4096, max_pairs = std::size_t{1} << 27;
 constexpr double min_order_in_plane = 0.5, min_order_in_space = 0.4;  // of a nematic
 constexpr double well_above_chance = 3;  // in units of the order of as many rotors without any
 
@@ -114,7 +115,8 @@ NematicCorrelation nematic_correlation(const Configuration2& configuration, doub
   const double scale = static_cast<double>(bins) / range;
   std::vector<double> sum(bins, 0);
   NematicCorrelation result{{}, {}, std::vector<std::size_t>(bins, 0)};
-  const std::size_t stride = (rotors.size() + max_origins - 1) / max_origins;
+  const std::size_t origins = std::min(max_origins, max_pairs / rotors.size() + 1);
+  const std::size_t stride = (rotors.size() + origins - 1) / origins;
   for (std::size_t i = 0; i < rotors.size(); i += stride)
     for (std::size_t j = 0; j < rotors.size(); ++j) {
       const double at = scale * nearest_distance(lengths, rotors[i].position, rotors[j].position);

@@ -15,7 +15,8 @@ struct PairCorrelationOptions {
 };
 
 struct StructureOptions {
-  std::size_t max_frames = 1000;  ///< evenly thinned beyond; 0: order only
+  /// Evenly thinned beyond, and of more than 5000 particles to fewer (frames_for in frame_observable.h); 0: order only.
+  std::size_t max_frames = 1000;
   ShellOptions shells;
   PairCorrelationOptions pairs;
 };

@@ -31,16 +31,17 @@ struct Point {
   std::size_t number;
 };
 
-/// What of a polygon is nearer to the origin than to this point.
-Polygon cut(const Polygon& corners, const Point& point) {
+/// What of a polygon is nearer to the origin than to this point, into `left`. False if that is all of it.
+bool cut(const Polygon& corners, const Point& point, Polygon& left) {
   const Vec2& to = point.at;
-  const auto excess = [&](const Corner& corner) {
-    return corner.at.dot(to) - 0.5 * to.squaredNorm();
-  };
-  Polygon left;
+  const double half = 0.5 * to.squaredNorm();
+  const auto excess = [&](const Corner& corner) { return corner.at.dot(to) - half; };
+  if (std::ranges::all_of(corners, [&](const Corner& corner) { return excess(corner) <= 0; }))
+    return false;
+  left.clear();
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Corner& here = corners[k];
-    const Corner& next = corners[(k + 1) % corners.size()];
+    const Corner& next = corners[k + 1 < corners.size() ? k + 1 : 0];
     const double a = excess(here), b = excess(next);
     if (a <= 0) left.push_back(here);
     if ((a <= 0) == (b <= 0)) continue;
@@ -48,17 +49,18 @@ Polygon cut(const Polygon& corners, const Point& point) {
     left.push_back(a <= 0 ? Corner{crossing, to, point.number}
                           : Corner{crossing, here.to, here.neighbor});
   }
-  return left;
+  return true;
 }
 
-double farthest(const Polygon& corners) {
+double squared_farthest(const Polygon& corners) {
   double squared = 0;
   for (const Corner& corner : corners) squared = std::max(squared, corner.at.squaredNorm());
-  return std::sqrt(squared);
+  return squared;
 }
 
 VoronoiCell as_cell(const Polygon& corners) {
   VoronoiCell cell{0, {}};
+  cell.edges.reserve(corners.size());
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec2& here = corners[k].at;
     const Vec2& next = corners[(k + 1) % corners.size()].at;
@@ -72,17 +74,20 @@ VoronoiCell as_cell(const Polygon& corners) {
 
 Voronoi::Voronoi(const Configuration2& configuration)
     : lengths_(configuration.box.lengths()),
-      reach_(3 * std::sqrt(configuration.box.volume() / static_cast<double>(configuration.size()))),
+      reach_(2.2 *
+             std::sqrt(configuration.box.volume() / static_cast<double>(configuration.size()))),
       centres_(configuration.box, reach_, configuration.size()) {
   for (std::size_t i = 0; i < configuration.size(); ++i)
     centres_.insert(i, configuration.position[i]);
 }
 
 VoronoiCell Voronoi::cell(std::size_t i) const {
-  Polygon corners;
+  Polygon corners, left;
   std::vector<Point> near;
-  for (double reach = 0, next = reach_; reach < next; next = 2 * farthest(corners)) {
+  double squared = 0;
+  for (double reach = 0, next = reach_; reach < next; next = 2 * std::sqrt(squared)) {
     corners = rectangle(lengths_, i);
+    squared = squared_farthest(corners);
     near.clear();
     centres_.for_each_near(centres_[i], reach = next,
                            [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
@@ -93,8 +98,10 @@ VoronoiCell Voronoi::cell(std::size_t i) const {
       return p.at.squaredNorm() < q.at.squaredNorm();
     });
     for (const Point& point : near) {
-      if (point.at.norm() >= 2 * farthest(corners)) break;
-      corners = cut(corners, point);
+      if (point.at.squaredNorm() >= 4 * squared) break;
+      if (!cut(corners, point, left)) continue;
+      corners.swap(left);
+      squared = squared_farthest(corners);
     }
   }
   return as_cell(corners);

@@ -14,6 +14,7 @@
 #include "workflow/prepare/preparation_plan.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality_file.h"
+#include "workflow/storage/work_timer.h"
 
 namespace vitrel {
 namespace {
@@ -51,6 +52,14 @@ Json stage_summaries(const Parameters& parameters, const std::vector<StageRecord
   return stages;
 }
 
+/// Without the quality report.
+template <int Dim>
+double seconds_of_stages(const Preparation<Dim>& preparation) {
+  double seconds = 0;
+  for (const StageRecord& stage : preparation.stages) seconds += stage.wall_seconds;
+  return seconds;
+}
+
 /// What was done; ratios of no moves at all are NaN.
 Json work_summary(const Preparation<2>& preparation, const std::filesystem::path& output) {
   const TrialCounts counts = preparation.trials();
@@ -64,7 +73,8 @@ Json work_summary(const Preparation<2>& preparation, const std::filesystem::path
       {"acceptance_exchange", ratio(counts.exchanges.accepted, counts.exchanges.tried)},
       {"acceptance_collective", ratio(counts.exchanges.accepted_steps, counts.exchanges.steps)},
       {"wall_seconds", preparation.wall_seconds},
-      {"trial_moves_per_second", static_cast<double>(counts.tried()) / preparation.wall_seconds}};
+      {"trial_moves_per_second",
+       static_cast<double>(counts.tried()) / seconds_of_stages(preparation)}};
 }
 
 /// What was done and what came out, as JSON.
@@ -125,12 +135,14 @@ void print_outcome(const PrepareOptions& options, const Preparation<3>& preparat
 
 template <int Dim>
 int prepare_state(const PrepareOptions& options, const PrepareRequest& request, Session& session) {
-  const Preparation<Dim> preparation = prepare<Dim>(request, session.control(), session.say());
+  Preparation<Dim> preparation = prepare<Dim>(request, session.control(), session.say());
   const Parameters& parameters = preparation.parameters;
   decltype(measure_quality(preparation, parameters, session.control())) quality;
   if (preparation.complete) {
     session.say()("quality report");
+    const WorkTimer timer(preparation.wall_seconds);
     quality = measure_quality(preparation, parameters, session.control(), options.threads);
+    preparation.wall_seconds = timer.seconds();
   }
   session.clear();
   set_summary_of_stop("");

@@ -226,6 +226,9 @@ class TrajectoryReader {
   /// The same into a configuration that is empty, or that another frame of this file was read into.
   template <int Dim>
   void read(std::uint64_t frame, Configuration<Dim>& configuration) const;
+  /// The same without velocities and close pairs.
+  template <int Dim>
+  void read_places(std::uint64_t frame, Configuration<Dim>& configuration) const;
 
   /// Whether positions are rounded to single precision.
   bool has_single_precision() const;

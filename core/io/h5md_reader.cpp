@@ -208,6 +208,15 @@ Configuration<Dim> TrajectoryReader::read(std::uint64_t frame) const {
 
 template <int Dim>
 void TrajectoryReader::read(std::uint64_t frame, Configuration<Dim>& configuration) const {
+  consistently([&] {
+    read_places(frame, configuration);
+    read_velocities(frame, configuration);
+    read_close_pairs(frame, configuration);
+  });
+}
+
+template <int Dim>
+void TrajectoryReader::read_places(std::uint64_t frame, Configuration<Dim>& configuration) const {
   require_dimension(Dim);
   if (frame >= frames())
     fail("there is no frame " + std::to_string(frame) + ": it has " + std::to_string(frames()) +
@@ -218,8 +227,6 @@ void TrajectoryReader::read(std::uint64_t frame, Configuration<Dim>& configurati
     read_box(frame, configuration);
     read_positions(frame, configuration);
     read_orientations(frame, configuration);
-    read_velocities(frame, configuration);
-    read_close_pairs(frame, configuration);
   });
 }
 
@@ -535,6 +542,8 @@ template Configuration2 TrajectoryReader::read(std::uint64_t) const;
 template Configuration3 TrajectoryReader::read(std::uint64_t) const;
 template void TrajectoryReader::read(std::uint64_t, Configuration2&) const;
 template void TrajectoryReader::read(std::uint64_t, Configuration3&) const;
+template void TrajectoryReader::read_places(std::uint64_t, Configuration2&) const;
+template void TrajectoryReader::read_places(std::uint64_t, Configuration3&) const;
 template Configuration2 read_state<2>(const TrajectoryReader&);
 template Configuration3 read_state<3>(const TrajectoryReader&);
 template Configuration2 read_state<2>(const fs::path&);

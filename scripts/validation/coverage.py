@@ -68,14 +68,14 @@ def parameters(name, seeds):
 def prepared(folder):
     """What the preparation of a job states with an error."""
     state = json.loads((folder / "prepare.json").read_text(encoding="utf-8"))
+    last = state["stages"][-1]
+    if (mean := last.get("mean_packing_fraction")) is not None:
+        # Compressed to a pressure, each state has a density of its own, and a reduced pressure of its own.
+        return {"compression: packing_fraction": (mean, last["mean_packing_fraction_error"])}
     report = state.get("quality")  # of a state in the plane; in space the summary itself
     pressure = report["reduced_pressure"] if report else {"value": state["reduced_pressure"],
                                                           "error": state["reduced_pressure_error"]}
-    found = {"quality report: reduced_pressure": (pressure["value"], pressure["error"])}
-    last = state["stages"][-1]
-    if (mean := last.get("mean_packing_fraction")) is not None:
-        found["compression: packing_fraction"] = mean, last["mean_packing_fraction_error"]
-    return found
+    return {"quality report: reduced_pressure": (pressure["value"], pressure["error"])}
 
 
 def measured(folder):

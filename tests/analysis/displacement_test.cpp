@@ -409,13 +409,77 @@ TEST(Displacement, OriginsAreThinnedEvenlyAndLongLagsLogarithmically) {
   MemoryTrajectory2 trajectory = free_brownian(ellipses(1), 2001, 4);
   const Displacements result = displacements(
       trajectory, {.axis = {.every_lag_up_to = 10, .lags_per_decade = 5, .max_origins = 100}});
-  for (const std::size_t origins : result.origins) {
-    EXPECT_LE(origins, 100u);
-    EXPECT_GE(origins, 50u);
-  }
+  // Every 21st frame is an origin, of lags that do not end beyond the run.
+  EXPECT_EQ(result.origins.front(), 96u);
+  EXPECT_EQ(result.origins.back(),
+            (2000 - std::lround(result.lag.back() / result.lag.front())) / 21 + 1);
   // 10 single steps, then two decades (10 … 1000) of five, the last one met up to rounding.
   EXPECT_GE(result.lag.size(), 19u);
   EXPECT_LE(result.lag.size(), 20u);
+}
+
+// As of a run that consists of these frames only.
+TEST(Displacement, HalvesAreThoseOfTheirFrames) {
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(5), 401, 4);
+  const Displacements whole = displacements(trajectory);
+  ASSERT_EQ(whole.halves.size(), 2u);
+  for (const std::size_t begin : {0, 200}) {
+    TrajectoryPart<2> part(trajectory, begin, begin == 0 ? 200 : 401);
+    const Displacements right = displacements(part);
+    const HalfOfRun& half = whole.halves[begin / 200];
+    const DisplacementGroup& group = right.groups.front();
+    ASSERT_EQ(half.lag.size(), right.lag.size());
+    const auto expect_same = [&](const Correlation& found, const Correlation& other) {
+      EXPECT_EQ(found.blocks, other.blocks);
+      std::size_t with_error = 0;
+      for (std::size_t k = 0; k < found.value.size(); ++k) {
+        EXPECT_NEAR(found.value[k], other.value[k], 1e-12 * std::abs(other.value[k]) + 1e-14);
+        if (found.blocks[k] == 0) continue;
+        EXPECT_NEAR(found.error[k], other.error[k], 1e-9 * other.error[k]);
+        ++with_error;
+      }
+      EXPECT_GT(with_error, 5u);
+    };
+    expect_same(half.translation, group.translation);
+    expect_same(half.self_scattering.front(), group.self_scattering.front());
+    expect_same(half.orientation.front(), group.orientation.front());
+  }
+}
+
+// Thinned origins are every so many frames, which lie apart in the path.
+TEST(Displacement, ThinnedOriginsAreThoseFrames) {
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(3), 100, 2);
+  const Displacements found = displacements(trajectory, {.axis = {.max_origins = 15}});
+  for (std::size_t l = 0; l < found.lag.size(); ++l) {
+    const auto lag = static_cast<std::size_t>(std::lround(found.lag[l] / found.lag[0]));
+    double square = 0, turn = 0, origins = 0;
+    for (std::size_t k = 0; k + lag < 100; k += 7, ++origins)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec2 from = trajectory.read(k).unwrapped(i);
+        const double angle = trajectory.read(k).angle[i];
+        square += (trajectory.read(k + lag).unwrapped(i) - from).squaredNorm() / 3;
+        const double turned = trajectory.read(k + lag).angle[i] - angle;
+        turn += turned * turned / 3;
+      }
+    EXPECT_EQ(found.origins[l], static_cast<std::size_t>(origins));
+    EXPECT_NEAR(found.groups[0].translation.value[l], square / origins, 1e-12 * square);
+    EXPECT_NEAR(found.groups[0].rotation.value[l], turn / origins, 1e-12 * turn);
+  }
+}
+
+// What is not asked for costs nothing, and changes nothing of the rest.
+TEST(Displacement, PartsAreThoseOfTheWhole) {
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(3), 60, 2);
+  const Displacements whole = displacements(trajectory);
+  const Displacements part = displacements(
+      trajectory, {.parts = {.displacement = false, .orientation = false, .overlap = false}});
+  const DisplacementGroup &all = whole.groups[0], &some = part.groups[0];
+  EXPECT_EQ(some.self_scattering[0].value, all.self_scattering[0].value);
+  EXPECT_EQ(some.self_scattering[0].blocks, all.self_scattering[0].blocks);
+  EXPECT_TRUE(some.translation.value.empty());
+  EXPECT_TRUE(some.rotation.value.empty());
+  EXPECT_TRUE(some.orientation.empty());
+  EXPECT_TRUE(part.overlap.value.empty());
 }
 
 TEST(Displacement, OneFrameIsTheUsersMistake) {

@@ -62,7 +62,7 @@ TEST(DynamicsTables, SayWhichTimesTheyAreOf) {
   MemoryTrajectory2 even = free_brownian(ellipses(1), 81, 1);
   EXPECT_EQ(time_axis_text(even.times(), displacements(even)), "linear, every frame an origin");
   EXPECT_EQ(time_axis_text(even.times(), displacements(even, {.axis = {.max_origins = 10}})),
-            "linear, up to 10 origins, evenly thinned");
+            "linear, up to 9 origins, evenly thinned");
   // Steps 0, 1, 2, 4, 8 … 64: seven lags, of two origins but for the longest.
   std::vector<Configuration2> frames{even.read(0)};
   for (std::size_t k = 1; k <= 64; k *= 2) frames.push_back(even.read(k));

@@ -340,7 +340,8 @@ TEST_F(TrajectoryFile, ImagesGrowBeyond16Bits) {
     if (k >= 200) configuration.image[3] = {32'768, -40'000};
     return configuration;
   };
-  auto writer = TrajectoryWriter::create(file("run.h5"), frame(0), some_provenance());
+  auto writer =
+      TrajectoryWriter::create(file("run.h5"), frame(0), some_provenance(), {.velocities = true});
   const auto write_up_to = [&](std::uint64_t end) {
     for (std::uint64_t k = writer.frames(); k < end; ++k)
       writer.write(frame(k), static_cast<std::int64_t>(k));
@@ -375,9 +376,10 @@ TEST_F(TrajectoryFile, SinglePrecisionRoundsTheNumbersOfParticlesOnce) {
   const Configuration3 found = reader.read<3>(0);
   EXPECT_EQ(found.box.lengths(), solids.box.lengths());
   EXPECT_EQ(found.time, solids.time);
-  EXPECT_TRUE(same_bits(found.image, solids.image));
   EXPECT_TRUE(same_bits(found.shape, solids.shape));
-  for (std::size_t i = 0; i < 9; ++i) {
+  // The first particle is at the edge, and rounded to the other side.
+  EXPECT_LT((found.unwrapped(0) - solids.unwrapped(0)).cwiseAbs().maxCoeff(), 7 * 0x1p-24);
+  for (std::size_t i = 1; i < 9; ++i) {
     EXPECT_EQ(found.position[i], solids.position[i].cast<float>().cast<double>());
     EXPECT_EQ(found.velocity[i], solids.velocity[i].cast<float>().cast<double>());
     EXPECT_TRUE(found.orientation[i].isApprox(solids.orientation[i], 0x1p-23));

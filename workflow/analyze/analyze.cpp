@@ -13,6 +13,7 @@
 #include "analysis/observables/dynamics_tables.h"
 #include "analysis/observables/energy_tables.h"
 #include "analysis/observables/frame_observable.h"
+#include "analysis/observables/observable.h"
 #include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/json.h"
@@ -102,22 +103,36 @@ void begin(const AnalysisProgress& progress, const char* phase) {
   if (progress.begin) progress.begin(phase);
 }
 
+/// Whether tables are asked for that need more than single frames.
+bool wants_motion(const TableChoice& wanted) {
+  return wanted.has({"summary", "displacements", "self_scattering", "orientation", "cage_relative",
+                     "collective_scattering", "wave_numbers", "susceptibility", "ageing",
+                     "waiting_times", "relaxation", "relaxation_times"});
+}
+
 /// The short part first: it refuses wave numbers that do not fit into the box.
 template <int Dim>
 RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOptions options,
-                             const AnalysisProgress& progress) {
+                             const TableChoice& wanted, const AnalysisProgress& progress) {
   options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), trajectory.read(0));
+  options.parts = {.displacement = wanted.has({"displacements", "summary", "relaxation"}),
+                   .scattering = wanted.has({"self_scattering", "relaxation_times", "relaxation"}),
+                   .orientation = wanted.has({"orientation", "relaxation_times", "relaxation"}),
+                   .overlap = wanted.has({"susceptibility"})};
   RunDynamics dynamics;
-  begin(progress, "collective scattering");
-  dynamics.collective = collective_scattering(trajectory, options.wave_numbers, options.axis,
-                                              progress.report, options.threads);
+  if (wanted.has({"collective_scattering", "wave_numbers"})) {
+    begin(progress, "collective scattering");
+    dynamics.collective = collective_scattering(trajectory, options.wave_numbers, options.axis,
+                                                progress.report, options.threads);
+  }
   begin(progress, "displacements");
   dynamics.displacements = displacements(trajectory, options, progress.report);
-  if constexpr (Dim == 2) {
-    begin(progress, "cage-relative displacements");
-    dynamics.cage_relative = cage_relative(trajectory, options, progress.report);
-  }
-  if (!options.waiting_times.empty()) {
+  if constexpr (Dim == 2)
+    if (wanted.has({"cage_relative", "relaxation_times", "relaxation"})) {
+      begin(progress, "cage-relative displacements");
+      dynamics.cage_relative = cage_relative(trajectory, options, progress.report);
+    }
+  if (!options.waiting_times.empty() && wanted.has({"ageing", "waiting_times"})) {
     begin(progress, "ageing");
     dynamics.ageing = ageing(trajectory, options, progress.report);
   }
@@ -226,18 +241,24 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
         "between any two frames some particle moved by more than a quarter of a box length, so "
         "that "
         "its box crossings are in doubt";
-  if (run.obstacle.empty())
-    run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
+  const TableChoice wanted(parameters.only);
+  if (run.obstacle.empty() && wants_motion(wanted))
+    run.dynamics = measure_dynamics(trajectory, parameters.analysis, wanted, progress);
   begin(progress, "structure");
-  run.structure = measure_frames(trajectory, parameters.structure, all_cores, progress.report);
-  run.energy = stored_energies(trajectory);
+  std::vector<std::string> of_frames = wanted.tables();
+  if (!of_frames.empty() && wanted.has({"relaxation"})) of_frames.emplace_back("order");
+  run.structure =
+      measure_frames(trajectory, parameters.structure, all_cores, progress.report, of_frames);
+  if (wanted.has({"energies", "compressibility_factor", "summary", "relaxation"}))
+    run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotations);
   run.diffusion = run.rotational_diffusion = no_diffusion(run.obstacle.c_str());
-  if (!run.dynamics) return run;
+  if (!run.dynamics || !run.dynamics->displacements.parts.displacement) return run;
   const Displacements& found = run.dynamics->displacements;
   run.diffusion = long_time_diffusion(found, found.groups.front().translation, Dim, times);
   run.rotational_diffusion = rotational_diffusion(found, run.rotors, Dim, times);
-  run.glass = measure_glass(trajectory, name, run, parameters, progress);
+  if (wanted.has({"relaxation"}))
+    run.glass = measure_glass(trajectory, name, run, parameters, progress);
   return run;
 }
 
@@ -292,18 +313,29 @@ void leave_out(Results& results, const std::string& what, const std::string& why
   results.provenance.emplace_back("left_out_" + what, why);
 }
 
+/// Some tables are measured for the sake of others. The summary is always there.
+void keep_wanted(Results& results, const TableChoice& wanted, int dimension) {
+  const std::vector<Observable> all = observables(dimension);
+  std::erase_if(results.tables, [&](const Table& table) {
+    const Observable* observable = find(all, table.name);
+    return table.name != "summary" && observable && !wanted.has({observable->table});
+  });
+}
+
 /// What there is of more than one frame, besides tables.
-void add_motion(const RunAnalysis& run, const std::vector<double>& times, Results& results) {
+void add_motion(const RunAnalysis& run, const TableChoice& wanted, const std::vector<double>& times,
+                Results& results) {
   const Displacements& found = run.dynamics->displacements;
   results.provenance.emplace_back("time_axis", time_axis_text(times, found));
   const auto& cage = run.dynamics->cage_relative;
-  store_relaxation_times(found, cage ? &*cage : nullptr, results);
-  if (found.dimension == 2 && !run.dynamics->cage_relative)
+  if (wanted.has({"relaxation_times"}))
+    store_relaxation_times(found, cage ? &*cage : nullptr, results);
+  if (found.dimension == 2 && !cage && wanted.has({"cage_relative"}))
     leave_out(results, "cage_relative", "analysis.memory is too small for all positions at once");
   if (!found.unknown_turns.empty()) leave_out(results, "rotations", found.unknown_turns);
   if (run.glass)
     store_glass_run(*run.glass, results);
-  else
+  else if (wanted.has({"relaxation"}))
     results.provenance.emplace_back(
         "not_judged", "equilibration and relaxation: the samples are not evenly spaced in time");
 }
@@ -346,6 +378,7 @@ AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
   const RunAnalysis run =
       naming(file, [&] { return measure(trajectory, analysed.name(), parameters, progress); });
   Results& results = analysed.results = results_of(run);
+  const TableChoice wanted(parameters.only);
   append(results.tables, on_the_fly_tables(file));
   results.provenance = provenance_rows(reader.provenance());
   results.provenance.emplace_back("source", file.string());
@@ -354,10 +387,12 @@ AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
   for (const auto& [heading, text] : reader.import_report())
     results.provenance.emplace_back(import_prefix + heading, text);
   if (run.dynamics)
-    add_motion(run, trajectory.times(), results);
-  else if (run.frames > 1)
+    add_motion(run, wanted, trajectory.times(), results);
+  else if (run.frames > 1 && !run.obstacle.empty())
     leave_out(results, "motion", run.obstacle);
-  if (run.energy.time.empty()) leave_out(results, "energies", no_energies);
+  if (run.energy.time.empty() && wanted.has({"energies"}))
+    leave_out(results, "energies", no_energies);
+  keep_wanted(results, wanted, Dim);
   if (const auto& units = reader.units()) put_into_units(results, *units);
   analysed.glass = run.glass;
   return analysed;

@@ -34,6 +34,8 @@ std::string charts_text(const std::vector<Chart>& charts) {
 /// The lines of a table, in the plane, in space or, if `where` is empty, in both.
 std::string lines(const Observable& observable, const std::string& where) {
   std::string items;
+  if (!observable.also.empty())
+    items += fmt::format("- also called `{}`\n", fmt::join(observable.also, "`, `"));
   if (const std::string needs = needs_text(observable.needs); !needs.empty())
     items += "- needs " + needs + "\n";
   if (!observable.charts.empty()) items += "- drawn as " + charts_text(observable.charts) + "\n";
@@ -66,7 +68,9 @@ std::string observables_page() {
       "those of groups\n"
       "of particles are there for all and, in mixtures, for every species. Columns, units and "
       "conventions are in\n"
-      "the attributes of the HDF5 file and in `columns.csv`.\n";
+      "the attributes of the HDF5 file and in `columns.csv`. `--only` and `analysis.only` choose "
+      "tables by these names,\n"
+      "without the group.\n";
   const std::vector<Observable> plane = observables(2), space = observables(3);
   for (const Observable& observable : plane)
     page += section(observable, listed(space, observable.table));

@@ -6,7 +6,18 @@
 #include <set>
 #include <utility>
 
+#include "analysis/observables/observable.h"
+#include "core/error.h"
+
 namespace vitrel {
+void validate_choice(const std::string& tables) {
+  try {
+    static_cast<void>(TableChoice(tables));
+  } catch (const UserError& error) {
+    throw BadValue("analysis.only", error.what());
+  }
+}
+
 void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
   visit.field({"longest_lag", "",
                "Longest time difference, as a fraction of an evenly sampled run. For other runs "
@@ -56,11 +67,12 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
 }
 
 void describe_structure(StructureOptions& p, FieldVisitor& visit) {
-  visit.field(
-      {"frames", "",
-       "Maximum number of frames in averages; if there are more, they are thinned evenly. 0: "
-       "only the order of single frames, which the verdict on equilibrium needs."},
-      p.max_frames);
+  visit.field({"frames", "",
+               "Maximum number of frames in averages; if there are more, they are thinned evenly, "
+               "of more than 5000 particles to "
+               "5000000 particles in all frames together, but not below 64 frames. 0: "
+               "only the order of single frames, which the verdict on equilibrium needs."},
+              p.max_frames);
   visit.field({"wave_number_max", "1/length", "Maximum wave number q of structure factors.",
                bounds::positive},
               p.shells.wave_number_max);

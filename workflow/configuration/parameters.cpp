@@ -157,6 +157,10 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
                   section_of(p.import, describe_import));
       visit.table(
           {"analysis", "", "Analysis of saved runs."}, Style::section, [&](FieldVisitor& in) {
+            in.field({"only", "",
+                      "The tables that are computed, by their names in `vitrel analyze --list`, "
+                      "separated by commas, such as \"msd, fs\". All if empty."},
+                     p.only);
             describe_analysis(p.analysis, in);
             in.table(
                 {"structure", "",
@@ -201,6 +205,7 @@ void validate(const Parameters& parameters) {
   if (parameters.dynamics.contact) validate_contact(parameters);
   validate_output(parameters);
   validate_import(parameters.import);
+  validate_choice(parameters.only);
   validate_analysis(parameters.analysis);
   validate_structure(parameters.structure);
   validate_sweep(parameters.sweep);

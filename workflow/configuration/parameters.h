@@ -121,6 +121,7 @@ struct Parameters {
   std::vector<Stage> stages;
   DynamicsParameters dynamics;
   OutputParameters output;
+  std::string only;  ///< tables of the analysis (TableChoice)
   DisplacementOptions analysis;
   StructureOptions structure;
   SweepParameters sweep;

@@ -42,6 +42,7 @@ void validate_output(const Parameters& parameters);
 void describe_import(ImportOptions& p, FieldVisitor& visit);
 void validate_import(const ImportOptions& p);
 
+void validate_choice(const std::string& tables);
 void describe_analysis(DisplacementOptions& p, FieldVisitor& visit);
 void validate_analysis(const DisplacementOptions& p);
 

@@ -40,7 +40,8 @@ std::optional<Quality> measure_quality(const Preparation<2>& preparation,
   if (!measure_state(quality, preparation, parameters, control, threads)) return std::nullopt;
   const Configuration2& state = preparation.configuration;
   quality.nematic_order = nematic_order(state);
-  quality.nematic_correlation = nematic_correlation(state, bin_width * unit_length(state));
+  if (parameters.quality_sweeps > 0)
+    quality.nematic_correlation = nematic_correlation(state, bin_width * unit_length(state));
   quality.hexatic_order = hexatic_order(state);
   return quality;
 }

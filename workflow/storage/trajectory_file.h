@@ -32,6 +32,10 @@ class TrajectoryFile final : public Trajectory<Dim> {
     reader_.read(k, frame_);
     return frame_;
   }
+  const Configuration<Dim>& read_places(std::size_t k) override {
+    reader_.read_places(k, frame_);
+    return frame_;
+  }
   double turn_period() const override {
     if (reader_.angles_are_directors()) return std::numbers::pi;
     return reader_.has("angle") ? 0 : 2 * std::numbers::pi;
