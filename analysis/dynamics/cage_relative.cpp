@@ -10,6 +10,7 @@
 #include "analysis/dynamics/like_particles.h"
 #include "analysis/structure/voronoi.h"
 #include "core/error.h"
+#include "core/neighbors/spatial_order.h"
 #include "core/parallel.h"
 
 namespace vitrel {
@@ -31,13 +32,18 @@ struct Cages {
   std::vector<std::uint32_t> neighbors;
 };
 
-Cages cages(const Configuration2& frame) {
+/// Particles are numbered by their places in `order`.
+Cages cages(const Configuration2& frame, const std::vector<std::uint32_t>& order) {
   const Voronoi voronoi(frame);
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
   Cages found;
-  for (std::size_t i = 0; i < frame.size(); ++i) {
+  found.first.reserve(order.size() + 1);
+  found.neighbors.reserve(6 * order.size());
+  for (const std::uint32_t i : order) {
     found.first.push_back(static_cast<std::uint32_t>(found.neighbors.size()));
     for (const VoronoiEdge& edge : voronoi.cell(i).edges)
-      if (edge.neighbor != i) found.neighbors.push_back(static_cast<std::uint32_t>(edge.neighbor));
+      if (edge.neighbor != i) found.neighbors.push_back(place[edge.neighbor]);
   }
   found.first.push_back(static_cast<std::uint32_t>(found.neighbors.size()));
   return found;
@@ -56,16 +62,18 @@ void tell(const ProgressReport& report, std::size_t done, std::size_t of, const 
   if (report) report({share, static_cast<double>(done), quantity});
 }
 
-/// All positions, and the cages at the origins.
+/// All positions, and the cages at the origins. Particles are numbered by their places in `order`, in which neighbours are
+/// near in memory.
 class Recording {
  public:
-  Recording(Trajectory2& trajectory, const std::vector<bool>& is_origin,
-            const ProgressReport& report)
+  Recording(Trajectory2& trajectory, const std::vector<std::uint32_t>& order,
+            const std::vector<bool>& is_origin, const ProgressReport& report)
       : positions_(trajectory.frames()), cages_(trajectory.frames()) {
     for (std::size_t k = 0; k < trajectory.frames(); ++k) {
       const Configuration2& frame = trajectory.read_places(k);
-      for (std::size_t i = 0; i < frame.size(); ++i) positions_[k].push_back(frame.unwrapped(i));
-      if (is_origin[k]) cages_[k] = cages(frame);
+      positions_[k].reserve(order.size());
+      for (const std::uint32_t i : order) positions_[k].push_back(frame.unwrapped(i));
+      if (is_origin[k]) cages_[k] = cages(frame, order);
       tell(report, k + 1, trajectory.frames(), "frames");
     }
   }
@@ -161,13 +169,16 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
   TimeAxisOptions axis = options.axis;
   axis.max_origins = std::min(axis.max_origins, max_origins(first.size()));
   const std::vector<Lag> lags = time_axis_of_motion(trajectory, axis);
-  const LikeParticles alike = like_particles(first);
   const std::vector<bool> is_origin = origins_of(lags, trajectory.frames());
   if (!fits(is_origin, first.size(), options.memory)) return std::nullopt;
   CageRelative result;
   result.wave_numbers = wave_numbers_or_main(options.wave_numbers, first);
   result.self_scattering.resize(result.wave_numbers.size());
-  const Recording recording(trajectory, is_origin, report);
+  const std::vector<std::uint32_t> order = spatial_order<2>(first.box, first.position);
+  LikeParticles alike = like_particles(first);
+  std::ranges::transform(order, alike.class_of.begin(),
+                         [of = alike.class_of](std::uint32_t i) { return of[i]; });
+  const Recording recording(trajectory, order, is_origin, report);
   const std::size_t n = recording.particles();
   const BesselJ0 bessel;
   std::vector<std::optional<LagResult>> sums(lags.size());

@@ -93,9 +93,10 @@ class Pass {
     std::vector<Track<Dim>> tracks =
         read_tracks(trajectory_, begin, end, [&](double read) { tell(begin, end, 0.5 * read); });
     for (std::size_t i = begin; i < end; i += paths_at_once) {
-      add_paths(tracks, begin, i, std::min(i + paths_at_once, end));
+      const std::size_t next = std::min(i + paths_at_once, end);
+      add_paths(tracks, begin, i, next);
       tell(begin, end,
-           0.5 + 0.5 * static_cast<double>(i - begin) / static_cast<double>(end - begin));
+           0.5 + 0.5 * static_cast<double>(next - begin) / static_cast<double>(end - begin));
     }
   }
 
@@ -228,7 +229,9 @@ Displacements displacements(Trajectory<Dim>& trajectory, const DisplacementOptio
     if (members.particles > 0) members.make_room(lags, quantities, alike.classes);
   const std::size_t batch = options.memory / track_bytes<Dim>(times.size());
   Pass<Dim> pass(trajectory, options, lags, quantities, alike, species, report);
-  pass.run(std::max<std::size_t>(1, batch));
+  const MotionParts& parts = options.parts;
+  if (parts.displacement || parts.scattering || parts.orientation || parts.overlap)
+    pass.run(std::max<std::size_t>(1, batch));
 
   Displacements result;
   result.dimension = Dim;

@@ -56,8 +56,11 @@ FrameObservables<Dim> observables_of(const Configuration<Dim>& first,
   return observables;
 }
 
-/// Frames shared by the threads at a time.
-constexpr std::size_t frames_at_once = 32;
+/// Frames shared by the threads at a time, fewer of many particles for the memory that they take.
+std::size_t frames_at_once(std::size_t particles) {
+  constexpr std::size_t fewest = 4, most = 32, particles_at_once = 1'000'000;
+  return std::clamp(particles_at_once / std::max<std::size_t>(1, particles), fewest, most);
+}
 
 /// Measures some frames at once.
 template <int Dim>
@@ -99,10 +102,11 @@ FrameResults measure_frames(Trajectory<Dim>& trajectory, const StructureOptions&
   const std::size_t frames = trajectory.frames();
   const std::size_t max_frames = frames_for(first.size(), options);
   const std::size_t stride = (frames + max_frames - 1) / max_frames;
+  const std::size_t at_once = frames_at_once(first.size());
   std::vector<double> times;
   for (std::size_t next = 0; next < frames;) {
     std::vector<Configuration<Dim>> batch;
-    for (; next < frames && batch.size() < frames_at_once; next += stride) {
+    for (; next < frames && batch.size() < at_once; next += stride) {
       batch.push_back(trajectory.read(next));
       times.push_back(batch.back().time);
     }

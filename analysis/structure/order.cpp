@@ -150,7 +150,7 @@ HexaticOrder hexatic_order(const Configuration2& configuration) {
   const Voronoi voronoi(configuration);
   std::complex<double> sum = 0;
   double magnitudes = 0;
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
+  for (const std::uint32_t i : voronoi.order()) {
     const std::complex<double> local = hexatic_order(voronoi.cell(i));
     sum += local;
     magnitudes += std::abs(local);

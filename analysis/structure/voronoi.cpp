@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/neighbors/spatial_order.h"
+
 namespace vitrel {
 
 namespace {
@@ -28,13 +30,14 @@ Polygon rectangle(const Vec2& lengths, std::size_t i) {
 /// Another point, seen from the centre of a cell.
 struct Point {
   Vec2 at;
+  double squared;  ///< distance
   std::size_t number;
 };
 
 /// What of a polygon is nearer to the origin than to this point, into `left`. False if that is all of it.
 bool cut(const Polygon& corners, const Point& point, Polygon& left) {
   const Vec2& to = point.at;
-  const double half = 0.5 * to.squaredNorm();
+  const double half = 0.5 * point.squared;
   const auto excess = [&](const Corner& corner) { return corner.at.dot(to) - half; };
   if (std::ranges::all_of(corners, [&](const Corner& corner) { return excess(corner) <= 0; }))
     return false;
@@ -74,14 +77,19 @@ VoronoiCell as_cell(const Polygon& corners) {
 
 Voronoi::Voronoi(const Configuration2& configuration)
     : lengths_(configuration.box.lengths()),
+      order_(spatial_order<2>(configuration.box, configuration.position)),
+      place_(order_.size()),
       reach_(2.2 *
              std::sqrt(configuration.box.volume() / static_cast<double>(configuration.size()))),
       centres_(configuration.box, reach_, configuration.size()) {
-  for (std::size_t i = 0; i < configuration.size(); ++i)
-    centres_.insert(i, configuration.position[i]);
+  for (std::uint32_t k = 0; k < order_.size(); ++k) {
+    place_[order_[k]] = k;
+    centres_.insert(k, configuration.position[order_[k]]);
+  }
 }
 
 VoronoiCell Voronoi::cell(std::size_t i) const {
+  const std::size_t place = place_[i];
   Polygon corners, left;
   std::vector<Point> near;
   double squared = 0;
@@ -89,16 +97,15 @@ VoronoiCell Voronoi::cell(std::size_t i) const {
     corners = rectangle(lengths_, i);
     squared = squared_farthest(corners);
     near.clear();
-    centres_.for_each_near(centres_[i], reach = next,
-                           [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
+    centres_.for_each_near(centres_[place], reach = next,
+                           [&](std::size_t k, const Shift<2>& shift, const Vec2& d) {
                              // The four nearest own images are the sides of the box.
-                             if (j != i || shift.squaredNorm() > 1) near.push_back({d, j});
+                             if (k != place || shift.squaredNorm() > 1)
+                               near.push_back({d, d.squaredNorm(), order_[k]});
                            });
-    std::sort(near.begin(), near.end(), [](const Point& p, const Point& q) {
-      return p.at.squaredNorm() < q.at.squaredNorm();
-    });
+    std::ranges::sort(near, {}, &Point::squared);
     for (const Point& point : near) {
-      if (point.at.squaredNorm() >= 4 * squared) break;
+      if (point.squared >= 4 * squared) break;
       if (!cut(corners, point, left)) continue;
       corners.swap(left);
       squared = squared_farthest(corners);

@@ -375,7 +375,7 @@ TEST(Hardening, AFileThatMayNotGrowIsAnErrorOfWriting) {
   folder.write("p.toml",
                "[system]\nparticles = 50\n[dynamics]\nequilibration = 0\nduration = 20\n"
                "[output]\ncheckpoint_interval = 0\nsamples.interval = 0.05\n");
-  expect_refusal(run_with_file_limit(300'000, folder, {"run", "p.toml", "-o", "run.h5", "-q"}), 3,
+  expect_refusal(run_with_file_limit(800'000, folder, {"run", "p.toml", "-o", "run.h5", "-q"}), 3,
                  "File too large");
   testing_program::succeed(folder, {"check", "run.h5", "-q"});
   testing_program::succeed(folder, {"run", "p.toml", "-o", "run.h5", "-q"});

@@ -231,7 +231,7 @@ TEST(FullDisk, ExitsWithThreeLosesNothingAndContinues) {
   const Folder folder("full_disk");
   folder.write("p.toml", system_text);
   std::filesystem::create_directory(folder / "disk");
-  if (mount("tmpfs", (folder / "disk").c_str(), "tmpfs", 0, "size=400k") != 0)
+  if (mount("tmpfs", (folder / "disk").c_str(), "tmpfs", 0, "size=800k") != 0)
     GTEST_SKIP() << "mounting a tmpfs needs root";
   run_uninterrupted(folder, "whole.h5", newtonian);
   const Outcome full = run(folder.path(), run_arguments("disk/run.h5", newtonian));

@@ -126,10 +126,7 @@ TEST_F(Growth, CheckIsLinearInFrames) {
 
 TEST_F(Growth, ExportIsLinearInFrames) {
   expect_linear([&](const fs::path& run) {
-    ExportRequest request;
-    request.input = run;
-    request.output = folder_ / "run.xyz";
-    request.format = "xyz";
+    const ExportRequest request{.input = run, .format = "xyz", .output = folder_ / "run.xyz"};
     export_trajectory(request, {});
     fs::remove(request.output);
   });

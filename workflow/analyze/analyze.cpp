@@ -125,13 +125,13 @@ RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOption
     dynamics.collective = collective_scattering(trajectory, options.wave_numbers, options.axis,
                                                 progress.report, options.threads);
   }
-  begin(progress, "displacements");
-  dynamics.displacements = displacements(trajectory, options, progress.report);
   if constexpr (Dim == 2)
     if (wanted.has({"cage_relative", "relaxation_times", "relaxation"})) {
       begin(progress, "cage-relative displacements");
       dynamics.cage_relative = cage_relative(trajectory, options, progress.report);
     }
+  begin(progress, "displacements");
+  dynamics.displacements = displacements(trajectory, options, progress.report);
   if (!options.waiting_times.empty() && wanted.has({"ageing", "waiting_times"})) {
     begin(progress, "ageing");
     dynamics.ageing = ageing(trajectory, options, progress.report);
