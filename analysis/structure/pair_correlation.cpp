@@ -18,7 +18,9 @@ struct Point;
 template <>
 struct Point<2> {
   Point() = default;
-  Point(const Configuration2& configuration, std::size_t i) : position(configuration.position[i]) {
+  Point(const Configuration2& configuration, std::size_t i)
+      : position(configuration.position[i]),
+        species(static_cast<std::size_t>(configuration.species[i])) {
     if (configuration.shape[i].is_round()) return;
     const double twice = 2 * configuration.angle[i];
     director = direction(twice);
@@ -28,13 +30,16 @@ struct Point<2> {
   Vec2 position = Vec2::Zero();
   Vec2 director = Vec2::Zero();
   double rotor = 0;
+  std::size_t species = 0;
 };
 
 /// director: the figure axis, or 0 of a round particle.
 template <>
 struct Point<3> {
   Point() = default;
-  Point(const Configuration3& configuration, std::size_t i) : position(configuration.position[i]) {
+  Point(const Configuration3& configuration, std::size_t i)
+      : position(configuration.position[i]),
+        species(static_cast<std::size_t>(configuration.species[i])) {
     const Ellipsoid& shape = configuration.shape[i];
     if (shape.is_round()) return;
     director = figure_axis(shape, configuration.orientation[i]);
@@ -44,6 +49,7 @@ struct Point<3> {
   Vec3 position = Vec3::Zero();
   Vec3 director = Vec3::Zero();
   double rotor = 0;
+  std::size_t species = 0;
 };
 
 /// Points sorted by cells, along x, row after row: the neighbours of a point are one run of memory per
@@ -183,14 +189,6 @@ struct Bin {
   }
 };
 
-template <int Dim>
-std::size_t bins_within(const Configuration<Dim>& configuration,
-                        const PairCorrelationOptions& options) {
-  const double range = std::min(options.distance_max, 0.5 * configuration.box.lengths().minCoeff());
-  // A quotient that rounding leaves just below a whole number is one.
-  return static_cast<std::size_t>(range / options.distance_step * (1 + 1e-12));
-}
-
 /// Area (volume) between two radii.
 template <int Dim>
 double shell_volume(double inner, double outer) {
@@ -198,30 +196,112 @@ double shell_volume(double inner, double outer) {
   return 4 * std::numbers::pi / 3 * (outer * outer * outer - inner * inner * inner);
 }
 
+/// Bins of the distance.
+template <int Dim>
+class DistanceBins {
+ public:
+  DistanceBins(const Configuration<Dim>& c, const PairCorrelationOptions& options)
+      : step_(options.distance_step), volume_(c.box.volume()) {
+    const double range = std::min(options.distance_max, 0.5 * c.box.lengths().minCoeff());
+    // A quotient that rounding leaves just below a whole number is one.
+    count_ = static_cast<std::size_t>(range / step_ * (1 + 1e-12));
+  }
+
+  std::size_t count() const { return count_; }
+  double range() const { return static_cast<double>(count_) * step_; }
+
+  /// Distances beyond the range have one more bin: cheaper than to tell them apart.
+  std::size_t bin(double squared_distance) const {
+    const auto at = static_cast<std::int64_t>(scale_ * std::sqrt(squared_distance));
+    return std::min(static_cast<std::size_t>(at), count_);
+  }
+
+  std::vector<double> middles() const {
+    std::vector<double> middles;
+    for (std::size_t k = 0; k < count_; ++k) middles.push_back(0.5 * (inner(k) + outer(k)));
+    return middles;
+  }
+
+  /// `found(k)` pairs in the k-th bin over those of an ideal gas of so many pairs in the box.
+  template <class Found>
+  std::vector<double> over_ideal_gas(double pairs, Found&& found) const {
+    const double density = pairs / volume_;
+    std::vector<double> g;
+    for (std::size_t k = 0; k < count_; ++k)
+      g.push_back(found(k) / (density * shell_volume<Dim>(inner(k), outer(k))));
+    return g;
+  }
+
+ private:
+  double inner(std::size_t k) const { return static_cast<double>(k) * step_; }
+  double outer(std::size_t k) const { return inner(k) + step_; }
+
+  double step_, scale_ = 1 / step_, volume_;
+  std::size_t count_;
+};
+
+/// Pairs of species in the bins of the distance, if several species have particles.
+template <int Dim>
+class SpeciesPairs {
+ public:
+  SpeciesPairs(const Configuration<Dim>& configuration, const DistanceBins<Dim>& bins)
+      : bins_(bins), members_(std::max<std::size_t>(1, configuration.species_names.size())) {
+    for (const std::int32_t species : configuration.species)
+      ++members_[static_cast<std::size_t>(species)];
+    if (std::ranges::count_if(members_, [](double count) { return count > 0; }) > 1)
+      found_.resize(members_.size() * members_.size() * (bins.count() + 1));
+  }
+
+  bool is_mixture() const { return !found_.empty(); }
+  /// Of pair A B in this bin, as met in this order.
+  double& found(std::size_t a, std::size_t b, std::size_t bin) {
+    return found_[(a * members_.size() + b) * (bins_.count() + 1) + bin];
+  }
+
+  std::vector<std::vector<double>> partial() {
+    std::vector<std::vector<double>> partial;
+    for (std::size_t a = 0; is_mixture() && a < members_.size(); ++a)
+      for (std::size_t b = a; b < members_.size(); ++b) partial.push_back(of_pair(a, b));
+    return partial;
+  }
+
+ private:
+  /// Empty where there is no such pair.
+  std::vector<double> of_pair(std::size_t a, std::size_t b) {
+    const double pairs = a == b ? 0.5 * members_[a] * (members_[a] - 1) : members_[a] * members_[b];
+    if (pairs == 0) return {};
+    return bins_.over_ideal_gas(
+        pairs, [&](std::size_t bin) { return found(a, b, bin) + (a == b ? 0 : found(b, a, bin)); });
+  }
+
+  const DistanceBins<Dim>& bins_;
+  std::vector<double> members_, found_;  // particles of every species, and pairs
+};
+
 }  // namespace
 
 template <int Dim>
 PairCorrelation pair_correlation(const Configuration<Dim>& configuration,
                                  const PairCorrelationOptions& options) {
-  const std::size_t count = bins_within(configuration, options);
-  if (count == 0) return {};
-  const double step = options.distance_step, range = static_cast<double>(count) * step;
-  // Pairs beyond the range go into one more bin: cheaper than to tell them apart.
-  std::vector<Bin> bins(count + 1);
-  SortedPoints<Dim>(configuration, range)
-      .for_each_pair(
-          [&, scale = 1 / step](const Point<Dim>& p, const Point<Dim>& q, double squared) {
-            const auto at = static_cast<std::int64_t>(scale * std::sqrt(squared));
-            bins[std::min(static_cast<std::size_t>(at), count)].add(p, q);
-          });
+  const DistanceBins<Dim> distances(configuration, options);
+  if (distances.count() == 0) return {};
+  std::vector<Bin> bins(distances.count() + 1);
+  SpeciesPairs<Dim> species(configuration, distances);
+  SortedPoints<Dim>(configuration, distances.range())
+      .for_each_pair([&, is_mixture = species.is_mixture()](const Point<Dim>& p,
+                                                            const Point<Dim>& q, double squared) {
+        const std::size_t at = distances.bin(squared);
+        bins[at].add(p, q);
+        if (is_mixture) ++species.found(p.species, q.species, at);
+      });
 
   const double n = static_cast<double>(configuration.size());
-  const double density = 0.5 * n * (n - 1) / configuration.box.volume();
   PairCorrelation result;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double inner = static_cast<double>(k) * step, outer = inner + step;
-    result.distance.push_back(0.5 * (inner + outer));
-    result.g.push_back(bins[k].pairs / (density * shell_volume<Dim>(inner, outer)));
+  result.distance = distances.middles();
+  result.g =
+      distances.over_ideal_gas(0.5 * n * (n - 1), [&](std::size_t k) { return bins[k].pairs; });
+  result.partial = species.partial();
+  for (std::size_t k = 0; k < distances.count(); ++k) {
     result.g_2.push_back(bins[k].g_2(Dim));
     result.g_4.push_back(bins[k].g_4(Dim));
     result.rotor_pairs.push_back(bins[k].rotor_pairs);

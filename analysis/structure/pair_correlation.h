@@ -17,6 +17,11 @@ struct PairCorrelation {
   /// N (N − 1)/2 · 4π(r₂³ − r₁³)/(3 L_x L_y L_z), those of N particles anywhere: 1 on the average at
   /// every r in an ideal gas, and far out in a liquid up to O(1/N).
   std::vector<double> g;
+  /// g_AB of the pairs of species A ≤ B, in the order AA, AB … BB …: pairs in the bin over N_A N_B, of equal
+  /// species N_A (N_A − 1)/2, times the same fraction of the box. Each is 1 in an ideal gas, and g their mean,
+  /// weighted with these numbers of pairs. Empty where there is no such pair, as AA of a single particle;
+  /// none at all unless several species have particles.
+  std::vector<std::vector<double>> partial;
   /// Over the pairs of particles that are not round: g_n(r) = ⟨cos n(θ_i − θ_j)⟩, in three dimensions
   /// Legendre's ⟨P_n(u_i·u_j)⟩ of the figure axes u (orientation_tensor.h): 1 where all are parallel, 0
   /// without order. Without two such particles NaN, as in a bin without such pairs.

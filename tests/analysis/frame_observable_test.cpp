@@ -82,7 +82,8 @@ TEST(StructureTables, HaveTheColumnsThatReadersRelyOn) {
             (std::vector<std::string>{"q", "s", "s_big_big", "s_big_small_1", "s_small_1_small_1",
                                       "s_orientation", "modes"}));
   EXPECT_EQ(column_names(named(tables, "pair_correlation")),
-            (std::vector<std::string>{"r", "g", "g_2", "g_4"}));
+            (std::vector<std::string>{"r", "g", "g_big_big", "g_big_small_1", "g_small_1_small_1",
+                                      "g_2", "g_4"}));
   EXPECT_EQ(column_names(named(tables, "orientation_distribution")),
             (std::vector<std::string>{"angle", "density", "by_chance"}));
   EXPECT_EQ(column_names(named(tables, "order")),
@@ -169,7 +170,7 @@ TEST(StructureTables, OfAChangingBoxAreAveragesOverItsFrames) {
   const std::vector<Table> tables = measure_frames(trajectory, {}, 2).tables;
   for (const auto& [table, column] :
        {std::pair{"structure_factor", "s"}, std::pair{"structure_factor", "s_orientation"},
-        std::pair{"pair_correlation", "g"}}) {
+        std::pair{"pair_correlation", "g"}, std::pair{"pair_correlation", "g_big_small_1"}}) {
     const Column& values = *named(tables, table).find(column);
     double chi_squared = 0, rows = 0;
     for (std::size_t k = 0; k < values.value.size(); ++k) {

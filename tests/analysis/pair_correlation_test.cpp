@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -200,6 +201,73 @@ TEST(PairCorrelation, OfAFaceCentredCubicLattice) {
   for (std::size_t k = 0; k < pairs.g.size(); ++k) {
     const double inner = static_cast<double>(k) * step;
     EXPECT_NEAR(pairs.g[k] * density * shell(inner, inner + step), neighbours[k], 1e-9) << k;
+  }
+}
+
+/// Species A, B and C in turn, and a single particle of species D.
+template <class Gas>
+Gas mixed(Gas gas) {
+  gas.species_names = {"A", "B", "C", "D"};
+  for (std::size_t i = 0; i < gas.size(); ++i) gas.species[i] = static_cast<std::int32_t>(i % 3);
+  gas.species.back() = 3;
+  return gas;
+}
+
+// Species are counted beside the pairs: nothing else changes by a bit.
+TEST(PairCorrelation, IsTheSameWithoutSpecies) {
+  const PairCorrelation one = pair_correlation(gas(120, {30, 40}, 4));
+  const PairCorrelation four = pair_correlation(mixed(gas(120, {30, 40}, 4)));
+  EXPECT_TRUE(one.partial.empty());
+  EXPECT_EQ(one.g, four.g);
+  EXPECT_EQ(one.rotor_pairs, four.rotor_pairs);
+  for (std::size_t k = 0; k < one.g.size(); ++k) {
+    if (one.rotor_pairs[k] == 0) continue;
+    EXPECT_EQ(one.g_2[k], four.g_2[k]);
+    EXPECT_EQ(one.g_4[k], four.g_4[k]);
+  }
+}
+
+TEST(PairCorrelation, HasNoSpeciesWhereOneHasAllParticles) {
+  Configuration2 c = gas(30, {20, 20}, 4);
+  c.species_names = {"A", "B"};
+  EXPECT_TRUE(pair_correlation(c).partial.empty());
+  c.species[7] = 1;
+  EXPECT_EQ(pair_correlation(c).partial.size(), 3u);
+}
+
+/// Mean of (g − 1)²/error² over bins of independent gases, and the number of bins.
+struct ChiSquared {
+  double sum = 0, bins = 0;
+
+  void add(const std::vector<std::vector<double>>& g_of_gases, std::size_t first) {
+    for (std::size_t k = first; k < g_of_gases.front().size(); ++k, ++bins) {
+      std::vector<double> values;
+      for (const std::vector<double>& g : g_of_gases) values.push_back(g[k]);
+      const Estimate mean = estimate(values);
+      sum += std::pow((mean.mean - 1) / mean.error, 2);
+    }
+  }
+  /// Five standard deviations √(2/bins) of the mean.
+  void expect_one() const { EXPECT_NEAR(sum / bins, 1, 5 * std::sqrt(2 / bins)); }
+};
+
+// Six particles of A: with N_A²/2 pairs instead of N_A (N_A − 1)/2, g_AA would be 5/6, which is 1.5 to 3
+// standard errors in every bin. Bins from r = 2 on, with some 90 pairs of A or more in the 400 gases.
+TEST(PairCorrelation, OfSpeciesOfAnIdealGasIsOne) {
+  std::vector<std::vector<std::vector<double>>> g(3);
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    Configuration2 c = gas(36, {24, 20}, seed);
+    c.species_names = {"A", "B"};
+    for (std::size_t i = 6; i < 36; ++i) c.species[i] = 1;
+    const PairCorrelation pairs = pair_correlation(c, {10, 0.5});
+    ASSERT_EQ(pairs.partial.size(), 3u);
+    for (std::size_t pair = 0; pair < 3; ++pair) g[pair].push_back(pairs.partial[pair]);
+  }
+  for (const std::vector<std::vector<double>>& of_pair : g) {
+    ChiSquared chi;
+    chi.add(of_pair, 4);
+    EXPECT_EQ(chi.bins, 16);
+    chi.expect_one();
   }
 }
 

@@ -1,5 +1,6 @@
 #include "workflow/report/state_page.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -110,6 +111,23 @@ TEST(StatePage, OfAFileHasItsStructure) {
   const nlohmann::json& s = tables["structure_factor"]["columns"];
   for (std::size_t k = 0; s["q"]["value"][k] < 2 * std::numbers::pi / spacing - 0.1; ++k)
     EXPECT_NEAR(s["s"]["value"][k].get<double>(), 0, 1e-6);
+}
+
+// g_2 and g_4 of a single state are noise; pairs of species are not.
+TEST(StatePage, OfAMixtureHasThePairsOfSpecies) {
+  const testing_program::Folder folder("state_mixture");
+  folder.write("p.toml",
+               "[system]\nparticles = 60\npacking_fraction = 0.3\n"
+               "[[species]]\nname = \"A\"\nfraction = 0.5\naspect_ratio = 2.0\n"
+               "[[species]]\nname = \"B\"\nfraction = 0.5\naspect_ratio = 1.5\n"
+               "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\nmethod = \"insert\"\n");
+  ASSERT_EQ(testing_program::run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "-q"}).code, 0);
+  ASSERT_EQ(testing_program::run(folder.path(), {"report", "s.h5", "-q"}).code, 0);
+  const nlohmann::json tables = embedded_data(folder.read("s.html"))["tables"];
+  std::vector<std::string> names;
+  for (const auto& [name, column] : tables["pair_correlation"]["columns"].items())
+    names.push_back(name);
+  EXPECT_THAT(names, testing::UnorderedElementsAre("r", "g", "g_A_A", "g_A_B", "g_B_B"));
 }
 
 }  // namespace

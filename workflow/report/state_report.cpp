@@ -24,8 +24,9 @@ std::vector<Table> structure(const Configuration2& state, const StructureOptions
       measure_frames(trajectory, options, all_cores, {}, {"structure_factor", "pair_correlation"})
           .tables;
   for (Table& table : tables)
-    std::erase_if(table.columns,
-                  [](const Column& column) { return column.name.starts_with("g_"); });
+    std::erase_if(table.columns, [](const Column& column) {
+      return column.name == "g_2" || column.name == "g_4";
+    });
   return tables;
 }
 

@@ -1,0 +1,107 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "analysis/observables/frame_observable.h"
+#include "analysis/statistics/blocking.h"
+#include "analysis/structure/pair_correlation.h"
+#include "core/random/stream.h"
+#include "tests/support/scenes.h"
+
+namespace vitrel {
+namespace {
+
+using testing::ElementsAre;
+
+void make_rotor(Configuration2& c, std::size_t i, Stream& draw) {
+  c.shape[i] = of_aspect_ratio(2);
+  c.angle[i] = draw.uniform(-3, 3);
+}
+void make_rotor(Configuration3& c, std::size_t i, Stream& draw) {
+  c.shape[i].semi_axes = Vec3(1, 1, 2);
+  const double angle = draw.uniform(-3, 3);
+  c.orientation[i] = Quaternion(Eigen::AngleAxisd(angle, Vec3::UnitX()));
+}
+
+/// Ideal gases of 80 particles, none of species "none", one of species "one".
+template <int Dim>
+std::vector<Configuration<Dim>> gases(std::size_t frames, bool round) {
+  Stream draw(8, Purpose::tests);
+  std::vector<Configuration<Dim>> all(frames);
+  for (std::size_t k = 0; k < frames; ++k) {
+    Configuration<Dim>& c = all[k];
+    c.resize(80);
+    c.time = static_cast<double>(k);
+    c.box = PeriodicBox<Dim>(Vec<Dim>::Constant(20));
+    c.species_names = {"big", "none", "one", "small-1"};
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      for (double& x : c.position[i]) x = draw.uniform(-10, 10);
+      c.species[i] = i == 0 ? 2 : i % 2 ? 0 : 3;
+      if (!round) make_rotor(c, i, draw);
+    }
+  }
+  return all;
+}
+
+template <int Dim>
+std::vector<Table> pair_tables(const std::vector<Configuration<Dim>>& frames) {
+  MemoryTrajectory<Dim> trajectory(frames);
+  StructureOptions options;
+  options.pairs.distance_step = 0.5;
+  return measure_frames(trajectory, options, 2, {}, {"pair_correlation"}).tables;
+}
+
+std::vector<std::string> column_names(const Table& table) {
+  std::vector<std::string> names;
+  for (const Column& column : table.columns) names.push_back(column.name);
+  return names;
+}
+
+TEST(PairCorrelationObservable, HasColumnsOfThePairsOfSpeciesThatThereAre) {
+  EXPECT_THAT(column_names(pair_tables(gases<2>(2, false)).front()),
+              ElementsAre("r", "g", "g_big_big", "g_big_one", "g_big_small_1", "g_one_small_1",
+                          "g_small_1_small_1", "g_2", "g_4"));
+  EXPECT_THAT(column_names(pair_tables(gases<3>(2, true)).front()),
+              ElementsAre("r", "g", "g_big_big", "g_big_one", "g_big_small_1", "g_one_small_1",
+                          "g_small_1_small_1"));
+  std::vector<Configuration3> alone = gases<3>(2, true);
+  for (Configuration3& frame : alone) frame.species.assign(80, 3);
+  EXPECT_THAT(column_names(pair_tables(alone).front()), ElementsAre("r", "g"));
+}
+
+/// The mean of the frames and its error in the tenth bin, r = 4.75, of a column.
+void expect_average(const Table& table, const std::string& name,
+                    const std::vector<double>& of_frames) {
+  const Column* column = table.find(name);
+  ASSERT_TRUE(column) << name;
+  EXPECT_EQ(column->unit, "1");
+  EXPECT_EQ(table.find("r")->value[9], 4.75);
+  const Estimate expected = slow_average(of_frames);
+  EXPECT_GT(expected.error, 0);
+  EXPECT_NEAR(column->value[9], expected.mean, 1e-12);
+  EXPECT_NEAR(column->error[9], expected.error, 1e-12);
+}
+
+template <int Dim>
+void expect_averages() {
+  const std::vector<Configuration<Dim>> frames = gases<Dim>(40, false);
+  const std::vector<Table> tables = pair_tables(frames);
+  std::vector<double> big, unlike;
+  for (const Configuration<Dim>& frame : frames) {
+    const PairCorrelation pairs = pair_correlation(frame, {20, 0.5});
+    big.push_back(pairs.partial.at(0).at(9));
+    unlike.push_back(pairs.partial.at(3).at(9));
+  }
+  expect_average(tables[0], "g_big_big", big);
+  expect_average(tables[0], "g_big_small_1", unlike);
+}
+
+TEST(PairCorrelationObservable, AveragesFrames) {
+  expect_averages<2>();
+  expect_averages<3>();
+}
+
+}  // namespace
+}  // namespace vitrel
