@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "analysis/structure/structure_options.h"
@@ -33,5 +34,32 @@ struct PairCorrelation {
 template <int Dim>
 PairCorrelation pair_correlation(const Configuration<Dim>& configuration,
                                  const PairCorrelationOptions& options = {});
+
+/// Bins of the angle θ between a separation and an axis, from 0 to π/2 since opposite directions are equivalent. All
+/// have the same share of the directions: in the plane they are uniform in θ, 10° each, in three
+/// dimensions uniform in cos θ, 0.1 each.
+template <int Dim>
+inline constexpr std::size_t axis_angle_bins = Dim == 2 ? 9 : 10;
+
+/// g(r, θ): whether neighbours are in line with a particle or beside it. θ is the angle between the separation of the
+/// centres and the long axis of the first particle, in three dimensions its figure axis (figure_axis.h), which
+/// of an oblate spheroid is the short one.
+struct PairCorrelationByAngle {
+  std::vector<double> distance;  ///< middle of the bin
+  /// One row for each bin of θ, ascending: ordered pairs (i, j) in the bin, i one of the R particles that are
+  /// not round and j any other particle, over those of an ideal gas, R (N − 1) times the fraction of the
+  /// box. It is 1 on the average at every r and θ in an ideal gas. If no particle is round, the mean of the rows is
+  /// g(r).
+  std::vector<std::vector<double>> g;
+};
+
+/// The bins of r are those of g(r) up to this many times the longest diameter of any particle. A second neighbour
+/// in line is 2 of these diameters away; farther pairs hardly depend on θ, and are most of the pairs.
+inline constexpr double axis_angle_range = 2.5;
+
+/// Empty if all particles are round. Cost N · (particles within the range).
+template <int Dim>
+PairCorrelationByAngle pair_correlation_by_angle(const Configuration<Dim>& configuration,
+                                                 const PairCorrelationOptions& options = {});
 
 }  // namespace vitrel

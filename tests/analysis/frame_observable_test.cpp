@@ -77,7 +77,7 @@ TEST(StructureTables, TellHowFarTheyAre) {
 TEST(StructureTables, HaveTheColumnsThatReadersRelyOn) {
   MemoryTrajectory2 trajectory(gases(40, false));
   const std::vector<Table> tables = measure_frames(trajectory, {}, 1).tables;
-  ASSERT_EQ(tables.size(), 4u);
+  ASSERT_EQ(tables.size(), 5u);
   EXPECT_EQ(column_names(named(tables, "structure_factor")),
             (std::vector<std::string>{"q", "s", "s_big_big", "s_big_small_1", "s_small_1_small_1",
                                       "s_orientation", "modes"}));

@@ -71,6 +71,21 @@ TEST(PairCorrelationObservable, HasColumnsOfThePairsOfSpeciesThatThereAre) {
   EXPECT_THAT(column_names(pair_tables(alone).front()), ElementsAre("r", "g"));
 }
 
+TEST(PairCorrelationByAngleObservable, HasAColumnForEveryBinOfTheAngle) {
+  EXPECT_THAT(column_names(pair_tables(gases<2>(2, false)).at(1)),
+              ElementsAre("r", "g_theta_05", "g_theta_15", "g_theta_25", "g_theta_35", "g_theta_45",
+                          "g_theta_55", "g_theta_65", "g_theta_75", "g_theta_85"));
+  EXPECT_THAT(column_names(pair_tables(gases<3>(2, false)).at(1)),
+              ElementsAre("r", "g_cos_theta_95", "g_cos_theta_85", "g_cos_theta_75",
+                          "g_cos_theta_65", "g_cos_theta_55", "g_cos_theta_45", "g_cos_theta_35",
+                          "g_cos_theta_25", "g_cos_theta_15", "g_cos_theta_05"));
+}
+
+TEST(PairCorrelationByAngleObservable, IsLeftOutIfAllAreRound) {
+  EXPECT_EQ(pair_tables(gases<2>(2, true)).size(), 1u);
+  EXPECT_EQ(pair_tables(gases<3>(2, true)).size(), 1u);
+}
+
 /// The mean of the frames and its error in the tenth bin, r = 4.75, of a column.
 void expect_average(const Table& table, const std::string& name,
                     const std::vector<double>& of_frames) {
@@ -85,22 +100,50 @@ void expect_average(const Table& table, const std::string& name,
 }
 
 template <int Dim>
-void expect_averages() {
+void expect_averages(const std::string& first, const std::string& last) {
   const std::vector<Configuration<Dim>> frames = gases<Dim>(40, false);
   const std::vector<Table> tables = pair_tables(frames);
-  std::vector<double> big, unlike;
+  std::vector<double> big, unlike, along, across;
   for (const Configuration<Dim>& frame : frames) {
     const PairCorrelation pairs = pair_correlation(frame, {20, 0.5});
     big.push_back(pairs.partial.at(0).at(9));
     unlike.push_back(pairs.partial.at(3).at(9));
+    const PairCorrelationByAngle by_angle = pair_correlation_by_angle(frame, {20, 0.5});
+    along.push_back(by_angle.g.front().at(9));
+    across.push_back(by_angle.g.back().at(9));
   }
   expect_average(tables[0], "g_big_big", big);
   expect_average(tables[0], "g_big_small_1", unlike);
+  expect_average(tables[1], first, along);
+  expect_average(tables[1], last, across);
 }
 
 TEST(PairCorrelationObservable, AveragesFrames) {
-  expect_averages<2>();
-  expect_averages<3>();
+  expect_averages<2>("g_theta_05", "g_theta_85");
+  expect_averages<3>("g_cos_theta_95", "g_cos_theta_05");
+}
+
+/// The labels of the chart of that table, whose columns are all there.
+template <int Dim>
+std::vector<std::string> drawn(const std::string& name) {
+  const std::vector<Observable> all = frame_observables<Dim>();
+  const std::vector<Table> tables = pair_tables(gases<Dim>(2, false));
+  const Table& table = *std::ranges::find(tables, name, &Table::name);
+  const Chart& chart = find(all, name)->charts.at(0);
+  std::vector<std::string> labels;
+  for (const Curve& curve : chart.curves) {
+    EXPECT_TRUE(table.find(curve.column)) << curve.column;
+    labels.push_back(curve.label);
+  }
+  EXPECT_TRUE(table.find(chart.x));
+  return labels;
+}
+
+TEST(PairCorrelationByAngleObservable, IsDrawnByTheAngle) {
+  EXPECT_THAT(drawn<2>("pair_correlation_by_angle"),
+              ElementsAre("θ = 5°", "θ = 25°", "θ = 45°", "θ = 65°", "θ = 85°"));
+  EXPECT_THAT(drawn<3>("pair_correlation_by_angle"),
+              ElementsAre("cos θ = 0.95", "cos θ = 0.65", "cos θ = 0.35", "cos θ = 0.05"));
 }
 
 }  // namespace

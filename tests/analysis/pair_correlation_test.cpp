@@ -213,6 +213,118 @@ Gas mixed(Gas gas) {
   return gas;
 }
 
+double number_of(const std::vector<std::int32_t>& species, std::size_t kind) {
+  return static_cast<double>(std::ranges::count(species, static_cast<std::int32_t>(kind)));
+}
+
+/// Place of the pair A ≤ B among AA, AB … BB … of four species.
+std::size_t place_of_pair(std::size_t a, std::size_t b) {
+  return a * 4 - a * (a + 1) / 2 + b;
+}
+
+double shell_of(const Configuration2&, double inner, double outer) {
+  return pi * (outer * outer - inner * inner);
+}
+double shell_of(const Configuration3&, double inner, double outer) {
+  return shell(inner, outer);
+}
+
+Vec2 axis_of(const Configuration2& c, std::size_t i) {
+  return {std::cos(c.angle[i]), std::sin(c.angle[i])};
+}
+Vec3 axis_of(const Configuration3& c, std::size_t i) {
+  return c.orientation[i] * Vec3::UnitZ();
+}
+
+/// The bin of an axis and a separation, by the angle itself.
+std::size_t angle_bin(const Vec2& axis, const Vec2& separation) {
+  const double cosine = std::abs(axis.dot(separation)) / separation.norm();
+  return std::min<std::size_t>(static_cast<std::size_t>(std::acos(cosine) * 18 / pi), 8);
+}
+std::size_t angle_bin(const Vec3& axis, const Vec3& separation) {
+  const double cosine = std::abs(axis.dot(separation)) / separation.norm();
+  return 9 - std::min<std::size_t>(static_cast<std::size_t>(10 * cosine), 9);
+}
+
+/// What is counted in bins of width 0.5: pairs of every two species, and neighbours by the angle.
+template <int Dim>
+struct Counts {
+  std::vector<std::vector<double>> species, angles;
+
+  Counts(const Configuration<Dim>& c, std::size_t bins)
+      : species(10, std::vector<double>(bins)),
+        angles(axis_angle_bins<Dim>, std::vector<double>(bins)) {
+    for (std::size_t i = 0; i < c.size(); ++i)
+      for (std::size_t j = 0; j < c.size(); ++j) {
+        Vec<Dim> d = c.position[j] - c.position[i];
+        d += c.box.translation(c.box.nearest_shift(d));
+        const auto bin = static_cast<std::size_t>(d.norm() / 0.5);
+        if (i == j || bin >= bins) continue;
+        const auto a = static_cast<std::size_t>(c.species[i]);
+        const auto b = static_cast<std::size_t>(c.species[j]);
+        if (a < b || (a == b && i < j)) ++species[place_of_pair(a, b)][bin];
+        if (!c.shape[i].is_round()) ++angles[angle_bin(axis_of(c, i), d)][bin];
+      }
+  }
+};
+
+/// g · pairs · shell/volume is the count.
+template <int Dim>
+void expect_counts(const Configuration<Dim>& c, const std::vector<double>& g, double pairs,
+                   const std::vector<double>& counts) {
+  ASSERT_EQ(g.size(), counts.size());
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    const double r = 0.5 * static_cast<double>(k);
+    EXPECT_NEAR(g[k] * pairs * shell_of(c, r, r + 0.5) / c.box.volume(), counts[k], 1e-9) << k;
+  }
+}
+
+template <int Dim>
+void expect_loop_over_all_pairs(const Configuration<Dim>& c) {
+  const PairCorrelation pairs = pair_correlation(c, {20, 0.5});
+  const Counts<Dim> counts(c, pairs.g.size());
+  ASSERT_EQ(pairs.partial.size(), 10u);
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = a; b < 4; ++b) {
+      const std::vector<double>& g = pairs.partial[place_of_pair(a, b)];
+      const double of_a = number_of(c.species, a), of_b = number_of(c.species, b);
+      if (a == 3)
+        EXPECT_TRUE(g.empty());  // of a single particle
+      else
+        expect_counts(c, g, a == b ? of_a * (of_a - 1) / 2 : of_a * of_b,
+                      counts.species[place_of_pair(a, b)]);
+    }
+  const PairCorrelationByAngle by_angle = pair_correlation_by_angle(c, {20, 0.5});
+  const auto rotors = static_cast<double>(rotor_count(c)), n = static_cast<double>(c.size());
+  ASSERT_EQ(by_angle.g.size(), counts.angles.size());
+  for (std::size_t angle = 0; angle < by_angle.g.size(); ++angle) {
+    const std::vector<double>& all = counts.angles[angle];
+    ASSERT_LE(by_angle.g[angle].size(), all.size());
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(by_angle.g[angle].size());
+    expect_counts(c, by_angle.g[angle], rotors * (n - 1) / static_cast<double>(by_angle.g.size()),
+                  {all.begin(), end});
+  }
+}
+
+TEST(PairCorrelation, OfSpeciesAndAnglesIsThatOfALoopOverAllPairs) {
+  for (const Vec2& lengths : {Vec2(30, 30), Vec2(50, 17), Vec2(9, 70)})
+    expect_loop_over_all_pairs(mixed(gas(121, lengths, 3)));
+  for (const Vec3& lengths : {Vec3(12, 12, 12), Vec3(7, 30, 9), Vec3(24, 25, 40)})
+    expect_loop_over_all_pairs(mixed(solid_gas(151, lengths, 3)));
+}
+
+// 2.5 times the longest diameter, 2 √2 of ellipses and 4 of spheroids, in steps of 0.5; half a box; and what was
+// asked for.
+TEST(PairCorrelation, ByAngleReachesAsFarAsTheParticlesAreLong) {
+  EXPECT_EQ(pair_correlation_by_angle(gas(20, {40, 50}, 1), {20, 0.5}).distance.size(), 14u);
+  EXPECT_EQ(pair_correlation_by_angle(gas(20, {8, 50}, 1), {20, 0.5}).distance.size(), 8u);
+  EXPECT_EQ(pair_correlation_by_angle(gas(20, {40, 50}, 1), {3, 0.5}).distance.size(), 6u);
+  const Configuration3 solids = solid_gas(20, {40, 50, 60}, 1);
+  const PairCorrelationByAngle pairs = pair_correlation_by_angle(solids, {20, 0.5});
+  ASSERT_EQ(pairs.distance.size(), 20u);
+  EXPECT_EQ(pairs.distance[3], 1.75);
+}
+
 // Species are counted beside the pairs: nothing else changes by a bit.
 TEST(PairCorrelation, IsTheSameWithoutSpecies) {
   const PairCorrelation one = pair_correlation(gas(120, {30, 40}, 4));
@@ -233,6 +345,36 @@ TEST(PairCorrelation, HasNoSpeciesWhereOneHasAllParticles) {
   EXPECT_TRUE(pair_correlation(c).partial.empty());
   c.species[7] = 1;
   EXPECT_EQ(pair_correlation(c).partial.size(), 3u);
+}
+
+/// Σ over pairs of species, weighted with their numbers, is g; the mean over the angles is g if none is round.
+template <int Dim>
+void expect_sums(Configuration<Dim> c, const Solid<Dim>& shape) {
+  c.shape.assign(c.size(), shape);
+  const PairCorrelation pairs = pair_correlation(c, {20, 0.3});
+  const PairCorrelationByAngle by_angle = pair_correlation_by_angle(c, {20, 0.3});
+  const auto n = static_cast<double>(c.size());
+  for (std::size_t k = 0; k < pairs.g.size(); ++k) {
+    double sum = 0;
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = a; b < 4; ++b) {
+        const std::vector<double>& g = pairs.partial[place_of_pair(a, b)];
+        const double of_a = number_of(c.species, a), of_b = number_of(c.species, b);
+        if (!g.empty()) sum += g[k] * (a == b ? of_a * (of_a - 1) / 2 : of_a * of_b);
+      }
+    EXPECT_NEAR(sum / (n * (n - 1) / 2), pairs.g[k], 1e-12 * (1 + pairs.g[k]));
+  }
+  ASSERT_GT(by_angle.distance.size(), 15u);
+  for (std::size_t k = 0; k < by_angle.distance.size(); ++k) {
+    double sum = 0;
+    for (const std::vector<double>& g : by_angle.g) sum += g[k];
+    EXPECT_NEAR(sum / static_cast<double>(by_angle.g.size()), pairs.g[k], 1e-12 * (1 + pairs.g[k]));
+  }
+}
+
+TEST(PairCorrelation, IsTheSumOverSpeciesAndTheMeanOverAngles) {
+  expect_sums<2>(mixed(gas(200, {24, 20}, 5)), of_aspect_ratio(3));
+  expect_sums<3>(mixed(solid_gas(200, {10, 12, 11}, 5)), Ellipsoid{Vec3(1, 1, 3)});
 }
 
 /// Mean of (g − 1)²/error² over bins of independent gases, and the number of bins.
@@ -271,8 +413,173 @@ TEST(PairCorrelation, OfSpeciesOfAnIdealGasIsOne) {
   }
 }
 
+/// From r = 1 on, every bin of both has 2000 neighbours or more in the 300 gases.
+template <class Gas>
+void expect_no_angles(Gas&& gas_of) {
+  std::vector<std::vector<std::vector<double>>> g;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const PairCorrelationByAngle one = pair_correlation_by_angle(gas_of(seed), {10, 0.5});
+    g.resize(one.g.size());
+    for (std::size_t angle = 0; angle < g.size(); ++angle) g[angle].push_back(one.g[angle]);
+  }
+  ChiSquared all;
+  for (const std::vector<std::vector<double>>& of_angle : g) {
+    ChiSquared chi;
+    chi.add(of_angle, 2);
+    chi.expect_one();
+    all.add(of_angle, 2);
+  }
+  all.expect_one();
+}
+
+TEST(PairCorrelation, ByAngleOfAnIdealGasIsOne) {
+  expect_no_angles([](std::uint64_t seed) { return gas(100, {24, 20}, seed); });
+  expect_no_angles([](std::uint64_t seed) { return solid_gas(150, {10, 12, 11}, seed); });
+}
+
+/// Two species at the sites of a lattice like the colours of a chessboard; all axes along x, in space along z.
+Configuration2 two_colours(const Configuration2& lattice) {
+  Configuration2 c = lattice;
+  c.species_names = {"A", "B"};
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    c.species[i] = (i % 12 + i / 12) % 2;
+    c.angle[i] = 0;
+  }
+  return c;
+}
+Configuration3 two_colours(const Configuration3& lattice) {
+  Configuration3 c = lattice;
+  c.species_names = {"A", "B"};
+  const double spacing = c.box.lengths().x() / 6;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const Vec3 site = (c.position[i] / spacing).array().floor();
+    c.species[i] = static_cast<long>(site.sum()) % 2 != 0;
+  }
+  return c;
+}
+
+/// Neighbours of every site at a distance, all of its own species or all of the other, and how many of them
+/// are in a bin of the angle.
+struct Neighbours {
+  double squared_distance;
+  bool is_like;
+  double count;
+  std::vector<std::pair<std::size_t, double>> angles;
+};
+
+/// Bins narrower than the distances differ.
+template <int Dim>
+void expect_crystal(const Configuration<Dim>& c, double spacing,
+                    const std::vector<Neighbours>& shells) {
+  const double step = 0.11 * spacing, n = static_cast<double>(c.size());
+  const PairCorrelation pairs = pair_correlation(c, {2.4 * spacing, step});
+  const PairCorrelationByAngle by_angle = pair_correlation_by_angle(c, {2.4 * spacing, step});
+  const std::size_t bins = pairs.g.size();
+  std::vector<double> like(bins), unlike(bins);
+  std::vector<std::vector<double>> angles(axis_angle_bins<Dim>, std::vector<double>(bins));
+  for (const Neighbours& shell : shells) {
+    const auto bin = static_cast<std::size_t>(std::sqrt(shell.squared_distance) * spacing / step);
+    (shell.is_like ? like : unlike)[bin] += shell.count;
+    for (const auto& [angle, count] : shell.angles) angles[angle][bin] += count;
+  }
+  ASSERT_EQ(pairs.partial.size(), 3u);
+  ASSERT_EQ(by_angle.distance.size(), bins);
+  for (std::size_t k = 0; k < bins; ++k) {
+    const double inner = static_cast<double>(k) * step;
+    const double share = shell_of(c, inner, inner + step) / c.box.volume();
+    EXPECT_NEAR(pairs.partial[0][k] * (n / 2 - 1) * share, like[k], 1e-9) << k;
+    EXPECT_NEAR(pairs.partial[1][k] * (n / 2) * share, unlike[k], 1e-9) << k;
+    EXPECT_NEAR(pairs.partial[2][k] * (n / 2 - 1) * share, like[k], 1e-9) << k;
+    for (std::size_t angle = 0; angle < angles.size(); ++angle)
+      EXPECT_NEAR(by_angle.g[angle][k] * (n - 1) * share / axis_angle_bins<Dim>, angles[angle][k],
+                  1e-9)
+          << k << ' ' << angle;
+  }
+}
+
+// The four at 45° are in the fifth of the bins of 10°; the eight at √5 at 26.6° and 63.4°.
+TEST(PairCorrelation, OfTwoSquareLattices) {
+  const Configuration2 c =
+      two_colours(square_lattice(12, 0.7, 0, [](std::size_t) { return of_aspect_ratio(1.2); }));
+  expect_crystal(c, c.box.lengths().x() / 12,
+                 {{1, false, 4, {{0, 2}, {8, 2}}},
+                  {2, true, 4, {{4, 4}}},
+                  {4, true, 4, {{0, 2}, {8, 2}}},
+                  {5, false, 8, {{2, 4}, {6, 4}}}});
+}
+
+// Rock salt, axes along z; bins of cos θ from 1 downwards, 0.1 each: 1/√2 is in the third, 1/√3 in the fifth;
+// (1, 2, 0) and its like have 2/√5 = 0.89, 1/√5 = 0.45 and 0.
+TEST(PairCorrelation, OfRockSalt) {
+  const Configuration3 c = two_colours(cubic_lattice(6, simple_cubic, 0.5, {Vec3(1, 1, 1.3)}));
+  expect_crystal(c, c.box.lengths().x() / 6,
+                 {{1, false, 6, {{0, 2}, {9, 4}}},
+                  {2, true, 12, {{2, 8}, {9, 4}}},
+                  {3, false, 8, {{4, 8}}},
+                  {4, true, 6, {{0, 2}, {9, 4}}},
+                  {5, false, 24, {{1, 8}, {5, 8}, {9, 8}}}});
+}
+
+/// Two particles at a distance of 2.3, each across an edge of the box: what they have in the bin from 2.2 to
+/// 2.4, as shares of what all have; elsewhere there is nothing.
+template <int Dim>
+std::vector<double> shares(Configuration<Dim> c, const Vec<Dim>& direction) {
+  c.box = PeriodicBox<Dim>(Vec<Dim>::Constant(12));
+  c.position[0] = 5.9 * direction;
+  c.position[1] = (5.9 + 2.3) * direction;
+  c.position[1] += c.box.translation(c.box.nearest_shift(c.position[1]));
+  const PairCorrelationByAngle pairs = pair_correlation_by_angle(c, {5, 0.2});
+  const double ideal = shell_of(c, 2.2, 2.4) / c.box.volume() / axis_angle_bins<Dim>;
+  std::vector<double> shares;
+  for (const std::vector<double>& g : pairs.g) {
+    shares.push_back(g[11] * ideal);
+    for (std::size_t k = 0; k < g.size(); ++k) EXPECT_TRUE(k == 11 || g[k] == 0) << k;
+  }
+  return shares;
+}
+
+void expect_shares(const std::vector<double>& shares, double first, double last) {
+  for (std::size_t angle = 0; angle < shares.size(); ++angle)
+    EXPECT_NEAR(shares[angle], angle == 0 ? first : angle + 1 == shares.size() ? last : 0, 1e-12);
+}
+
+TEST(PairCorrelation, ByAngleOfTwoEllipses) {
+  Configuration2 c;
+  c.resize(2);
+  c.shape.assign(2, of_aspect_ratio(2));
+  expect_shares(shares<2>(c, Vec2::UnitX()), 1, 0);  // head to tail
+  expect_shares(shares<2>(c, Vec2::UnitY()), 0, 1);  // side by side
+  c.angle[1] = pi;                                   // the same, turned round
+  expect_shares(shares<2>(c, Vec2::UnitX()), 1, 0);
+  c.angle = {0.5, 0.5};
+  expect_shares(shares<2>(c, {std::cos(0.5), std::sin(0.5)}), 1, 0);
+  expect_shares(shares<2>(c, {-std::sin(0.5), std::cos(0.5)}), 0, 1);
+  c.angle[0] = 0;
+  c.angle[1] = -pi / 2;  // a T: one along, one across
+  expect_shares(shares<2>(c, Vec2::UnitX()), 0.5, 0.5);
+  c.shape[1] = {1, 1};  // only the ellipse counts
+  expect_shares(shares<2>(c, Vec2::UnitX()), 1, 0);
+  expect_shares(shares<2>(c, Vec2::UnitY()), 0, 1);
+}
+
+TEST(PairCorrelation, ByAngleOfTwoSpheroids) {
+  Configuration3 c;
+  c.resize(2);
+  for (const double along : {2.0, 0.5}) {  // of an oblate one the short axis
+    c.shape.assign(2, Ellipsoid{Vec3(1, 1, along)});
+    c.orientation.assign(2, Quaternion::Identity());
+    expect_shares(shares<3>(c, Vec3::UnitZ()), 1, 0);
+    expect_shares(shares<3>(c, Vec3::UnitX()), 0, 1);
+    c.orientation[1] = Quaternion(Eigen::AngleAxisd(pi / 2, Vec3::UnitX()));
+    expect_shares(shares<3>(c, Vec3::UnitZ()), 0.5, 0.5);
+    c.shape[1] = Ellipsoid{Vec3(1, 1, 1)};
+    expect_shares(shares<3>(c, Vec3::UnitZ()), 1, 0);
+  }
+}
+
 TEST(PairCorrelation, IsEmptyInABoxNarrowerThanTwoBins) {
   EXPECT_TRUE(pair_correlation(gas(5, {1, 8}, 1), {20, 0.6}).g.empty());
+  EXPECT_TRUE(pair_correlation_by_angle(gas(5, {1, 8}, 1), {20, 0.6}).g.empty());
 }
 
 }  // namespace

@@ -82,6 +82,8 @@ TEST_F(PackingFile, IsAnalysed) {
   }
   EXPECT_NEAR(at, 2 * M_PI * 6 / lattice().box.lengths().x(), 0.1);
   EXPECT_GT(results.find("pair_correlation")->rows(), 10u);
+  ASSERT_TRUE(results.find("pair_correlation_by_angle"));
+  EXPECT_GT(results.find("pair_correlation_by_angle")->rows(), 10u);
   const Table* two_point = results.find("two_point");
   ASSERT_TRUE(two_point);
   EXPECT_NEAR(two_point->find("s2")->value[0], 0.1, 0.005);
@@ -108,8 +110,9 @@ TEST_F(PackingFile, HasAPage) {
   EXPECT_THAT(text, HasSubstr("<h1>Packing of 216 ellipsoids, 2 : 1 : 1</h1>"));
   EXPECT_THAT(text, HasSubstr("a b c = 1"));
   EXPECT_THAT(text, HasSubstr("id=\"two_point\""));
+  EXPECT_THAT(text, HasSubstr("id=\"pair_correlation_by_angle\""));
   EXPECT_THAT(text, testing::Not(HasSubstr("{{")));
-  EXPECT_LT(text.size(), 150'000u);
+  EXPECT_LT(text.size(), 160'000u);
 }
 
 TEST_F(PackingFile, TakesFromTheQualityReportWhatOnlyThePreparationKnows) {

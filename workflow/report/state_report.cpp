@@ -17,12 +17,15 @@ StructureOptions structure_options(const Provenance& provenance, const std::stri
   return parse_parameters(provenance.parameters, file).structure;
 }
 
-/// S(q) and g(r); the page has the correlation of orientations in bins wide enough for a single state.
+/// S(q) and g(r); the page has the correlation of orientations in bins wide enough for a single state, in which
+/// g(r, θ) would be noise.
 std::vector<Table> structure(const Configuration2& state, const StructureOptions& options) {
   MemoryTrajectory2 trajectory({state});
   std::vector<Table> tables =
       measure_frames(trajectory, options, all_cores, {}, {"structure_factor", "pair_correlation"})
           .tables;
+  std::erase_if(tables,
+                [](const Table& table) { return table.name == "pair_correlation_by_angle"; });
   for (Table& table : tables)
     std::erase_if(table.columns, [](const Column& column) {
       return column.name == "g_2" || column.name == "g_4";
