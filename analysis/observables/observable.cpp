@@ -63,8 +63,9 @@ TableChoice::TableChoice(std::string_view names) {
           tables_.push_back(observable.table);
       }
     if (std::ranges::find(known, name) == known.end())
-      throw UserError(fmt::format("names the table \"{}\", which `vitrel analyze --list` does not have{}",
-                                  name, suggestion(name, known)));
+      throw UserError(
+          fmt::format("names the table \"{}\", which `vitrel analyze --list` does not have{}", name,
+                      suggestion(name, known)));
   }
 }
 

@@ -461,9 +461,10 @@ void write_state(const fs::path& path, const Configuration<Dim>& configuration,
                  const Provenance& provenance, bool overwrite) {
   refuse_existing(path, overwrite);
   AtomicFile pending(path);
-  TrajectoryWriter writer(
-      create_layout(pending.partial(), configuration, provenance,
-                    {.velocities = true, .close_pairs = !configuration.close_pairs.empty(), .expected_frames = 1}));
+  TrajectoryWriter writer(create_layout(pending.partial(), configuration, provenance,
+                                        {.velocities = true,
+                                         .close_pairs = !configuration.close_pairs.empty(),
+                                         .expected_frames = 1}));
   writer.write(configuration, 0);
   writer.close();
   pending.commit();

@@ -82,7 +82,9 @@ class Growth : public testing::Test {
       for (std::size_t i = 0; i < 20; ++i) {
         const Vec2 place(10.0 * static_cast<double>(i % 5) - 20,
                          10.0 * static_cast<double>(i / 5) - 15);
-        state.position[i] = place + Vec2(draw.uniform(), draw.uniform());
+        const double right = draw.uniform();
+        const double up = draw.uniform();
+        state.position[i] = place + Vec2(right, up);
         state.angle[i] += 0.1 * draw.normal();
         state.velocity[i] = {draw.normal(), draw.normal()};
       }
