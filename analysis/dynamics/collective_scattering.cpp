@@ -152,14 +152,6 @@ Series read_modes(Trajectory<Dim>& trajectory, const std::vector<std::array<int,
   return series;
 }
 
-/// Time difference 0 of all frames, before those of the time axis.
-std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOptions& axis) {
-  std::vector<Lag> lags = time_axis(times, axis);
-  const std::size_t stride = even_stride(times.size(), axis);
-  lags.insert(lags.begin(), Lag{0, stride, (times.size() - 1) / stride + 1});
-  return lags;
-}
-
 /// F of the wave vectors first … first + count − 1.
 Correlation correlate(const Series& series, std::size_t first, std::size_t count,
                       const std::vector<Lag>& lags, std::size_t particles) {

@@ -27,6 +27,11 @@ std::vector<double> means(const CorrelationSum& sum, std::size_t particles) {
   return series;
 }
 
+double mean_of(const CorrelationSum& sum, std::size_t particles) {
+  const std::vector<double> series = means(sum, particles);
+  return sum_of(series) / static_cast<double>(series.size());
+}
+
 /// What blocks of two time differences show of the correlations (1 − s/lag)².
 constexpr double seen_of_diffusion = 7.0 / 8;
 
@@ -111,14 +116,17 @@ PointEstimate CorrelationSum::estimate(const Lag& lag, std::size_t particles) co
 }
 
 PointEstimate CorrelationSum::estimate_of_decay(const Lag& lag, std::size_t particles) const {
-  const std::vector<double> series = means(*this, particles);
-  const Estimate blocks = block_average(series, lag.shortest_block());
-  return {blocks.blocks > 0 ? blocks : slow_average(series), independent_average(classes_).error};
+  return {average_of_decay(means(*this, particles), lag), independent_average(classes_).error};
 }
 
 PointEstimate CorrelationSum::estimate_with_plateau(const Lag& lag, std::size_t particles) const {
   return {block_average(means(*this, particles), lag.shortest_block()),
           independent_average(classes_).error};
+}
+
+Estimate average_of_decay(std::span<const double> series, const Lag& lag) {
+  const Estimate blocks = block_average(series, lag.shortest_block());
+  return blocks.blocks > 0 ? blocks : slow_average(series);
 }
 
 void MomentSum::add(std::size_t first_origin, std::span<const double> squares,
@@ -138,24 +146,42 @@ void MomentSum::add(const MomentSum& other) {
   for (std::size_t c = 0; c < mixed_.size(); ++c) mixed_[c] += other.mixed_[c];
 }
 
-PointEstimate MomentSum::non_gaussian(double c, const Lag& lag, std::size_t particles) const {
+std::vector<double> MomentSum::line(double by_quartic, double by_square,
+                                    std::size_t particles) const {
   const std::vector<double> squares = means(square, particles);
   std::vector<double> line = means(quartic, particles);
-  const double origins = static_cast<double>(line.size());
-  const double m2 = sum_of(squares) / origins, m4 = sum_of(line) / origins;
-  if (!(m2 > 0)) return {{unknown, unknown, 0}, unknown};
-  const double by_m4 = c / (m2 * m2), by_m2 = -2 * c * m4 / (m2 * m2 * m2);
-  for (std::size_t k = 0; k < line.size(); ++k) line[k] = by_m4 * line[k] + by_m2 * squares[k];
-  Estimate estimate = over_origins(line, lag);
-  estimate.mean = c * m4 / (m2 * m2) - 1;
+  for (std::size_t k = 0; k < line.size(); ++k)
+    line[k] = by_quartic * line[k] + by_square * squares[k];
+  return line;
+}
+
+double MomentSum::spread(double by_quartic, double by_square) const {
   std::vector<ValueSums> line_of_classes;
   for (std::size_t k = 0; k < mixed_.size(); ++k) {
     const ValueSums &s = square.classes_[k], &q = quartic.classes_[k];
-    line_of_classes.push_back(
-        {s.count, by_m4 * q.sum + by_m2 * s.sum,
-         by_m4 * by_m4 * q.squares + 2 * by_m4 * by_m2 * mixed_[k] + by_m2 * by_m2 * s.squares});
+    line_of_classes.push_back({s.count, by_quartic * q.sum + by_square * s.sum,
+                               by_quartic * by_quartic * q.squares +
+                                   2 * by_quartic * by_square * mixed_[k] +
+                                   by_square * by_square * s.squares});
   }
-  return {estimate, independent_average(line_of_classes).error};
+  return independent_average(line_of_classes).error;
+}
+
+PointEstimate MomentSum::non_gaussian(double c, const Lag& lag, std::size_t particles) const {
+  const double m2 = mean_of(square, particles), m4 = mean_of(quartic, particles);
+  if (!(m2 > 0)) return {{unknown, unknown, 0}, unknown};
+  const double by_m4 = c / (m2 * m2), by_m2 = -2 * c * m4 / (m2 * m2 * m2);
+  Estimate estimate = over_origins(line(by_m4, by_m2, particles), lag);
+  estimate.mean = c * m4 / (m2 * m2) - 1;
+  return {estimate, spread(by_m4, by_m2)};
+}
+
+PointEstimate MomentSum::ratio(const Lag& lag, std::size_t particles) const {
+  const double x = mean_of(square, particles), y = mean_of(quartic, particles);
+  if (!(x > 0)) return {{unknown, unknown, 0}, unknown};
+  Estimate estimate = average_of_decay(line(1 / x, -y / (x * x), particles), lag);
+  estimate.mean = y / x;
+  return {estimate, spread(1 / x, -y / (x * x))};
 }
 
 Estimate susceptibility(const CorrelationSum& sum, const Lag& lag, std::size_t particles) {

@@ -84,8 +84,12 @@ class CorrelationSum {
   std::vector<ValueSums> classes_;  ///< of the particles' means over origins
 };
 
-/// Sums of the squares s and fourth powers s² of displacements, whose ratio shows how far they are
-/// from being normally distributed: the non-Gaussian parameter
+/// A decaying quantity at consecutive origins, averaged as estimate_of_decay does.
+Estimate average_of_decay(std::span<const double> series, const Lag& lag);
+
+/// Sums of two quantities of the same particles and origins, and the errors of functions of both means. Of the squares
+/// s and fourth powers s² of displacements the ratio shows how far they are from being normally distributed: the
+/// non-Gaussian parameter
 ///
 ///     α = c ⟨s²⟩/⟨s⟩² − 1, c = 1/2 in the plane, 1/3 for rotation; 0 for normal distributions.
 class MomentSum {
@@ -103,10 +107,18 @@ class MomentSum {
   /// correlation counts. The bias from the ratio is that of a sample, −1/n of n independent
   /// displacements; the error is 1/√n. NaN where nothing moves.
   PointEstimate non_gaussian(double c, const Lag& lag, std::size_t particles) const;
+  /// ⟨y⟩/⟨x⟩ of a decaying y and any x > 0, added as squares x and fourth powers y. The error is that of the linearised
+  /// ratio (y − x ⟨y⟩/⟨x⟩)/⟨x⟩, as estimate_of_decay has it. NaN if all x are 0.
+  PointEstimate ratio(const Lag& lag, std::size_t particles) const;
 
   CorrelationSum square, quartic;
 
  private:
+  /// The combination of both quantities with these factors: at every origin, and its error if particles are
+  /// independent.
+  std::vector<double> line(double by_quartic, double by_square, std::size_t particles) const;
+  double spread(double by_quartic, double by_square) const;
+
   std::vector<double> mixed_;  ///< Σ (mean of s)(mean of s²) over the particles of every class
 };
 

@@ -173,6 +173,22 @@ std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions&
   return evenly_spaced(times) ? even_lags(times, options) : uneven_lags(times, options);
 }
 
+std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOptions& axis) {
+  std::vector<Lag> lags = time_axis(times, axis);
+  const std::size_t stride = stride_to(axis.max_origins, times.size());
+  lags.insert(lags.begin(), Lag{0, stride, (times.size() - 1) / stride + 1});
+  return lags;
+}
+
+void share_origins(std::vector<Lag>& lags, std::size_t frames, std::size_t max_origins) {
+  const std::size_t stride = stride_to(max_origins, frames);
+  for (Lag& lag : lags) {
+    if (!lag.pairs.empty()) continue;
+    lag.stride = stride;
+    lag.origins = (frames - lag.frames - 1) / stride + 1;
+  }
+}
+
 template <int Dim>
 std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
                                      const TimeAxisOptions& options) {

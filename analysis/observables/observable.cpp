@@ -10,6 +10,7 @@
 #include "analysis/observables/frame_observable.h"
 #include "core/error.h"
 #include "core/io/suggestion.h"
+#include "analysis/observables/motion_tables.h"
 
 namespace vitrel {
 namespace {
@@ -79,6 +80,7 @@ std::vector<Observable> observables(int dimension) {
   const std::vector<Observable> parts[] = {
       {summary_observable()},
       dynamics_observables(dimension),
+      motion_observables(),
       energy_observables(),
       dimension == 2 ? frame_observables<2>() : frame_observables<3>(),
       {{.table = "on_the_fly",

@@ -14,6 +14,7 @@
 #include "analysis/observables/energy_tables.h"
 #include "analysis/observables/frame_observable.h"
 #include "analysis/observables/observable.h"
+#include "analysis/observables/motion_tables.h"
 #include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/json.h"
@@ -48,6 +49,7 @@ struct RunAnalysis {
   std::vector<Column> state;            ///< of the last frame, for the summary
   std::string obstacle;                 ///< to saying anything about motion, if there is one
   std::optional<RunDynamics> dynamics;  ///< otherwise
+  std::optional<RunMotion> motion;      ///< likewise
   EnergySeries energy;
   CompressibilitySeries compressibility;
   DiffusionCoefficient diffusion, rotational_diffusion;  ///< of all particles
@@ -137,6 +139,18 @@ RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOption
     dynamics.ageing = ageing(trajectory, options, progress.report);
   }
   return dynamics;
+}
+
+/// What else there is of the motion between frames.
+template <int Dim>
+RunMotion measure_motion(TrajectoryFile<Dim>& trajectory, const Parameters& parameters,
+                         const AnalysisProgress& progress) {
+  RunMotion motion;
+  if (mechanics(trajectory.read(0)).translational_energy > 0) {
+    begin(progress, "velocities");
+    motion.velocities = velocity_correlations(trajectory, parameters.analysis, progress.report);
+  }
+  return motion;
 }
 
 /// Of a mean squared displacement or rotation in so many dimensions.
@@ -244,6 +258,7 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
   const TableChoice wanted(parameters.only);
   if (run.obstacle.empty() && wants_motion(wanted))
     run.dynamics = measure_dynamics(trajectory, parameters.analysis, wanted, progress);
+  if (run.dynamics) run.motion = measure_motion(trajectory, parameters, progress);
   begin(progress, "structure");
   std::vector<std::string> of_frames = wanted.tables();
   if (!of_frames.empty() && wanted.has({"relaxation"})) of_frames.emplace_back("order");
@@ -300,6 +315,7 @@ Results results_of(const RunAnalysis& run) {
   Results results;
   results.tables.push_back({"summary", "Averages over the run.", summary_columns(run)});
   if (run.dynamics) append(results.tables, dynamics_tables(*run.dynamics));
+  if (run.motion) append(results.tables, motion_tables(*run.motion));
   append(results.tables, energy_tables(run.energy, run.compressibility));
   append(results.tables, run.structure.tables);
   return results;

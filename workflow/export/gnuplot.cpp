@@ -23,8 +23,8 @@ bool contains(const std::array<std::string_view, n>& names, std::string_view nam
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-constexpr std::array<std::string_view, 5> axis_columns = {"time", "q", "r", "angle",
-                                                          "packing_fraction"};
+constexpr std::array<std::string_view, 6> axis_columns = {"time",  "q",         "r",
+                                                          "angle", "frequency", "packing_fraction"};
 /// Counts and codes.
 constexpr std::array<std::string_view, 14> not_drawn = {"origins",
                                                         "modes",
@@ -43,9 +43,10 @@ constexpr std::array<std::string_view, 14> not_drawn = {"origins",
 constexpr std::array<std::string_view, 7> logarithmic_units = {
     "length^2", "length^4", "rad^2", "rad^4", "time", "length^2/time", "rad^2/time"};
 /// Beginnings of the names of tables over time differences.
-constexpr std::array<std::string_view, 8> correlations = {
-    "displacements_", "self_scattering_", "orientation_", "susceptibility",
-    "cage_relative",  "ageing",           "on_the_fly_",  "collective_scattering"};
+constexpr std::array<std::string_view, 9> correlations = {
+    "displacements_", "self_scattering_",      "orientation_",
+    "susceptibility", "cage_relative",         "ageing",
+    "on_the_fly_",    "collective_scattering", "velocity_autocorrelation"};
 
 bool is_over_time_differences(const Table& table) {
   return table.columns.front().name == "time" &&

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/dynamics/velocity_correlation.h"
+#include "analysis/observables/observable.h"
+#include "analysis/results.h"
+
+namespace vitrel {
+
+/// What is measured of the motion between frames beside the correlations of dynamics_tables.h.
+struct RunMotion {
+  std::optional<VelocityCorrelations> velocities = {};  ///< if there are any
+};
+
+std::vector<Table> motion_tables(const RunMotion& motion);
+
+/// Those tables, in their order.
+std::vector<Observable> motion_observables();
+
+}  // namespace vitrel

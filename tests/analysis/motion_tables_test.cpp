@@ -1,0 +1,57 @@
+#include "analysis/observables/motion_tables.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/free_brownian.h"
+
+namespace vitrel {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names names(const std::vector<Column>& columns) {
+  Names result;
+  for (const Column& column : columns) result.push_back(column.name);
+  return result;
+}
+
+RunMotion motion_of(MemoryTrajectory2& trajectory) {
+  return {velocity_correlations(trajectory)};
+}
+
+MemoryTrajectory2 seven_frames() {
+  Configuration2 start = ellipses(20);
+  Stream draw(1, Purpose::tests);
+  redraw_velocities(start, draw);
+  return free_brownian(start, 7, 1);
+}
+
+TEST(MotionTables, HaveTheColumnsThatOthersRelyOn) {
+  MemoryTrajectory2 trajectory = seven_frames();
+  const RunMotion motion = motion_of(trajectory);
+  const Results results{motion_tables(motion), {}};
+  EXPECT_EQ(names(results.find("velocity_autocorrelation")->columns),
+            (Names{"time", "c", "c_angular", "origins"}));
+  EXPECT_EQ(names(results.find("velocity_spectrum")->columns),
+            (Names{"frequency", "g", "g_angular"}));
+  for (const Table& table : results.tables)
+    for (const Column& column : table.columns) {
+      EXPECT_EQ(column.value.size(), table.rows()) << table.name << ' ' << column.name;
+      EXPECT_TRUE(column.error.empty() || column.error.size() == table.rows()) << column.name;
+    }
+}
+
+TEST(MotionTables, WithoutVelocitiesOrEvenTimesSomeAreAbsent) {
+  MemoryTrajectory2 even = seven_frames();
+  MemoryTrajectory2 uneven({even.read(0), even.read(1), even.read(2), even.read(4)});
+  RunMotion motion = motion_of(uneven);
+  EXPECT_TRUE(Results({motion_tables(motion), {}}).find("velocity_autocorrelation"));
+  EXPECT_FALSE(Results({motion_tables(motion), {}}).find("velocity_spectrum"));
+  motion.velocities = {};
+  EXPECT_FALSE(Results({motion_tables(motion), {}}).find("velocity_autocorrelation"));
+}
+
+}  // namespace
+}  // namespace vitrel
