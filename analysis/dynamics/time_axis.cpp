@@ -14,6 +14,8 @@ constexpr std::size_t max_pairs = std::size_t{1} << 22;
 constexpr double single_precision = 0x1p-24;
 /// The most that time differences taken as equal may differ by, relative.
 constexpr double widest = 1e-3;
+/// Of functions of more than the time difference.
+constexpr std::size_t few_lags = 10, few_origins = 128;
 
 std::size_t stride_to(std::size_t most, std::size_t available) {
   return (available + most - 1) / most;
@@ -207,7 +209,26 @@ std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
   return lags;
 }
 
+template <int Dim>
+std::vector<Lag> few_lags_of_motion(const Trajectory<Dim>& trajectory, TimeAxisOptions options) {
+  options.max_origins = std::min(options.max_origins, few_origins);
+  std::vector<Lag> all = time_axis_of_motion(trajectory, options), few;
+  if (all.empty()) return few;
+  const double shortest = all.front().time, range = all.back().time / shortest;
+  double next = 0;  // of few_lags steps
+  for (Lag& lag : all) {
+    const double place = range > 1 ? std::log(lag.time / shortest) / std::log(range) : 0;
+    if (place * (few_lags - 1) < next - 1e-9) continue;
+    next = std::floor(place * (few_lags - 1) + 1e-9) + 1;
+    few.push_back(std::move(lag));
+  }
+  share_origins(few, trajectory.frames(), options.max_origins);
+  return few;
+}
+
 template std::vector<Lag> time_axis_of_motion(const Trajectory<2>&, const TimeAxisOptions&);
 template std::vector<Lag> time_axis_of_motion(const Trajectory<3>&, const TimeAxisOptions&);
+template std::vector<Lag> few_lags_of_motion(const Trajectory<2>&, TimeAxisOptions);
+template std::vector<Lag> few_lags_of_motion(const Trajectory<3>&, TimeAxisOptions);
 
 }  // namespace vitrel

@@ -84,4 +84,9 @@ template <int Dim>
 std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
                                      const TimeAxisOptions& options = {});
 
+/// Ten of those lags, or fewer, about equally far apart on a logarithmic scale, the shortest and the longest among
+/// them: for functions of more than the time difference. They share origins, 128 at most.
+template <int Dim>
+std::vector<Lag> few_lags_of_motion(const Trajectory<Dim>& trajectory, TimeAxisOptions options);
+
 }  // namespace vitrel

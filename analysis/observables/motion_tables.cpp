@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace vitrel {
 namespace {
 
-constexpr auto in_relaxation = Chart::Section::relaxation;
+constexpr auto in_motion = Chart::Section::motion, in_relaxation = Chart::Section::relaxation;
 
 std::vector<Observable> velocity_observables() {
   const Needs needs{.motion = true, .velocities = true};
@@ -55,14 +57,88 @@ std::vector<Table> velocity_tables(const VelocityCorrelations& found) {
   return {correlation, spectrum};
 }
 
+/// The table of a function of two times has the x of its chart as rows, and a column for every lag.
+struct TwoTimeTable {
+  Observable observable;
+  const char *x_unit, *unit;
+};
+
+Observable of_two_times(const char* name, const char* what, Chart chart) {
+  chart.numbers = {"lag_times", "time", "t"};
+  return {.table = name, .what = what, .needs = {.motion = true}, .charts = {std::move(chart)}};
+}
+
+std::vector<TwoTimeTable> two_time_tables() {
+  return {{of_two_times("van_hove_self",
+                        "Self part of the Van Hove function: density of the distances that "
+                        "particles move in the times of table lag_times, 2 pi r G_s in the plane "
+                        "and 4 pi r^2 G_s in space.",
+                        {.section = in_motion,
+                         .heading = "Van Hove function, self part",
+                         .symbol = "density of |Δr|",
+                         .curves = {{"density_#", "#"}},
+                         .scale = Chart::Scale::logarithmic,
+                         .x = "r",
+                         .x_symbol = "r",
+                         .is_x_logarithmic = true}),
+           "length", "1/length"},
+          {of_two_times("van_hove_distinct",
+                        "Distinct part of the Van Hove function: G_d/density of other particles "
+                        "around where one was the times of table lag_times before, g(r) for t = 0.",
+                        {.section = in_motion,
+                         .heading = "Van Hove function, distinct part",
+                         .symbol = "G_d(r, t)/ρ",
+                         .curves = {{"g_#", "#"}},
+                         .scale = Chart::Scale::around_one,
+                         .x = "r",
+                         .x_symbol = "r",
+                         .levels = {1}}),
+           "length", "1"}};
+}
+
+Table lag_table(const std::vector<Lag>& lags) {
+  Table table{"lag_times",
+              "Time differences t_k of the tables with a column for each, and their origins.",
+              {{"index", "1", {}, {}}, {"time", "time", {}, {}}, {"origins", "1", {}, {}}}};
+  for (const Lag& lag : lags) {
+    table.columns[0].value.push_back(static_cast<double>(table.rows() + 1));
+    table.columns[1].value.push_back(lag.time);
+    table.columns[2].value.push_back(static_cast<double>(lag.origins));
+  }
+  return table;
+}
+
+Table table_of(const TwoTimeTable& kind, const TwoTimeAverages& found) {
+  const Chart& chart = kind.observable.charts.front();
+  Table table{kind.observable.table, kind.observable.what, {{chart.x, kind.x_unit, found.x, {}}}};
+  const std::string name = chart.curves.front().column;  // ends with #
+  for (const Averages& lag : found.at_lag)
+    table.columns.push_back(
+        {fmt::format("{}{}", name.substr(0, name.size() - 1), table.columns.size()), kind.unit,
+         lag.mean, lag.error});
+  return table;
+}
+
 }  // namespace
 
 std::vector<Table> motion_tables(const RunMotion& motion) {
-  return motion.velocities ? velocity_tables(*motion.velocities) : std::vector<Table>{};
+  std::vector<Table> tables;
+  if (motion.velocities) tables = velocity_tables(*motion.velocities);
+  tables.push_back(lag_table(motion.lags));
+  const std::vector<TwoTimeTable> kinds = two_time_tables();
+  for (std::size_t k = 0; k < motion.two_times.size(); ++k)
+    tables.push_back(table_of(kinds[k], motion.two_times[k]));
+  return tables;
 }
 
 std::vector<Observable> motion_observables() {
-  return velocity_observables();
+  std::vector<Observable> observables = velocity_observables();
+  observables.push_back(
+      {.table = "lag_times",
+       .what = "Time differences of the tables with a column for each, about ten.",
+       .needs = {.motion = true}});
+  for (const TwoTimeTable& kind : two_time_tables()) observables.push_back(kind.observable);
+  return observables;
 }
 
 }  // namespace vitrel

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/dynamics/two_times.h"
 #include "analysis/dynamics/velocity_correlation.h"
 #include "analysis/observables/observable.h"
 #include "analysis/results.h"
@@ -12,6 +13,9 @@ namespace vitrel {
 /// What is measured of the motion between frames beside the correlations of dynamics_tables.h.
 struct RunMotion {
   std::optional<VelocityCorrelations> velocities = {};  ///< if there are any
+  std::vector<Lag> lags = {};                           ///< those of two_times
+  /// Self and distinct part of the Van Hove function.
+  std::vector<TwoTimeAverages> two_times = {};
 };
 
 std::vector<Table> motion_tables(const RunMotion& motion);

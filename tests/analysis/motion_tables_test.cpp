@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "analysis/dynamics/van_hove.h"
 #include "tests/support/free_brownian.h"
 
 namespace vitrel {
@@ -17,8 +18,14 @@ Names names(const std::vector<Column>& columns) {
   return result;
 }
 
+/// Of seven frames, with lags of one, two and three steps.
 RunMotion motion_of(MemoryTrajectory2& trajectory) {
-  return {velocity_correlations(trajectory)};
+  const Configuration2 first = trajectory.read(0);
+  const std::vector<Lag> lags = few_lags_of_motion(trajectory, {});
+  return {velocity_correlations(trajectory), lags,
+          average_two_times<2>(
+              trajectory, lags,
+              {van_hove_self<2>({}), van_hove_distinct(first, lags, PairCorrelationOptions{})})};
 }
 
 MemoryTrajectory2 seven_frames() {
@@ -36,6 +43,12 @@ TEST(MotionTables, HaveTheColumnsThatOthersRelyOn) {
             (Names{"time", "c", "c_angular", "origins"}));
   EXPECT_EQ(names(results.find("velocity_spectrum")->columns),
             (Names{"frequency", "g", "g_angular"}));
+  EXPECT_EQ(names(results.find("lag_times")->columns), (Names{"index", "time", "origins"}));
+  EXPECT_EQ(names(results.find("van_hove_self")->columns),
+            (Names{"r", "density_1", "density_2", "density_3"}));
+  EXPECT_EQ(names(results.find("van_hove_distinct")->columns), (Names{"r", "g_1", "g_2", "g_3"}));
+  EXPECT_EQ(results.find("lag_times")->find("index")->value, (std::vector<double>{1, 2, 3}));
+  EXPECT_NEAR(results.find("lag_times")->find("time")->value[2], 3 * brownian_step, 1e-12);
   for (const Table& table : results.tables)
     for (const Column& column : table.columns) {
       EXPECT_EQ(column.value.size(), table.rows()) << table.name << ' ' << column.name;
@@ -51,6 +64,7 @@ TEST(MotionTables, WithoutVelocitiesOrEvenTimesSomeAreAbsent) {
   EXPECT_FALSE(Results({motion_tables(motion), {}}).find("velocity_spectrum"));
   motion.velocities = {};
   EXPECT_FALSE(Results({motion_tables(motion), {}}).find("velocity_autocorrelation"));
+  EXPECT_TRUE(Results({motion_tables(motion), {}}).find("van_hove_self"));
 }
 
 }  // namespace

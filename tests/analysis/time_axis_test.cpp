@@ -219,6 +219,30 @@ TEST(TimeAxis, AnIntervalInDoubtTakesOnlyTheLagsThatSpanIt) {
   EXPECT_EQ(time_axis_of_motion(even).size(), time_axis(even.times()).size());
 }
 
+// From 1 to 1000 steps nine factors of 10^(1/3); the next longer lag there is is taken, which above 100 steps may be
+// farther by one of 50 per decade. All lags have the origins 0, 16, 32 …
+TEST(TimeAxis, FewLagsAreLogarithmicallySpacedAndShareOrigins) {
+  DoubtfulTrajectory run(even_times(2001, 1), {});
+  const std::vector<Lag> lags = few_lags_of_motion<2>(run, {});
+  ASSERT_EQ(lags.size(), 10u);
+  for (std::size_t k = 0; k < 10; ++k) {
+    const double steps = static_cast<double>(lags[k].frames);
+    const double wanted = std::pow(lags.back().time, static_cast<double>(k) / 9);
+    EXPECT_GE(steps, wanted * (1 - 1e-9));
+    EXPECT_LE(steps, std::max(wanted + 1, 1.05 * wanted));
+    EXPECT_EQ(lags[k].stride, 16u);  // 2001/128, rounded up
+    EXPECT_EQ(lags[k].origins, (2000 - lags[k].frames) / 16 + 1);
+    EXPECT_LT(lags[k].to(lags[k].origins - 1), 2001u);
+  }
+  DoubtfulTrajectory listed(cycles(40, 1), {});
+  const std::vector<Lag> few = few_lags_of_motion<2>(listed, {});
+  EXPECT_LE(few.size(), 10u);
+  EXPECT_EQ(few.front().time, 1);
+  EXPECT_EQ(few.back().time, time_axis(listed.times()).back().time);
+  for (const Lag& lag : few) EXPECT_LE(lag.pairs.size(), 128u);
+  EXPECT_EQ(few_lags_of_motion<2>(DoubtfulTrajectory({0, 1}, {}), {}).size(), 1u);
+}
+
 TEST(TimeAxis, NeedsTwoFrames) {
   EXPECT_TRUE(time_axis(Times{}).empty());
   EXPECT_TRUE(time_axis(Times{3}).empty());

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "analysis/dynamics/time_axis.h"
+#include "analysis/dynamics/van_hove.h"
 #include "analysis/glass/glass_data.h"
 #include "analysis/observables/dynamics_tables.h"
 #include "analysis/observables/energy_tables.h"
@@ -150,6 +151,15 @@ RunMotion measure_motion(TrajectoryFile<Dim>& trajectory, const Parameters& para
     begin(progress, "velocities");
     motion.velocities = velocity_correlations(trajectory, parameters.analysis, progress.report);
   }
+  begin(progress, "functions of two times");
+  const Configuration<Dim> first = trajectory.read(0);
+  const DisplacementOptions& options = parameters.analysis;
+  const PairCorrelationOptions& pairs = parameters.structure.pairs;
+  motion.lags = few_lags_of_motion(trajectory, options.axis);
+  motion.two_times = average_two_times<Dim>(
+      trajectory, motion.lags,
+      {van_hove_self<Dim>(pairs), van_hove_distinct(first, motion.lags, pairs)}, progress.report,
+      options.threads);
   return motion;
 }
 

@@ -20,9 +20,9 @@ namespace vitrel {
 namespace {
 
 constexpr int error_digits = 3;
-// Charts of correlations need their wave numbers; those of a study are no observables of one run.
-constexpr std::array<std::string_view, 3> without_charts = {"wave_numbers", "relaxation",
-                                                            "glass_fit"};
+// Charts of correlations need their wave numbers or lags; those of a study are no observables of one run.
+constexpr std::array<std::string_view, 4> without_charts = {"wave_numbers", "lag_times",
+                                                            "relaxation", "glass_fit"};
 constexpr std::string_view on_the_fly = "on_the_fly";
 
 bool is_shown(std::string_view table, const Observable* observable) {
