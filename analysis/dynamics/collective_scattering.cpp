@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <string>
 
+#include "analysis/dynamics/density_modes.h"
 #include "core/error.h"
 #include "core/parallel.h"
 
@@ -18,14 +18,6 @@ constexpr std::size_t max_vectors = 32;
 /// Frames held in memory for the threads to share.
 constexpr std::size_t frames_at_once = 32;
 
-/// Particles whose phases stay in the cache.
-constexpr std::size_t block = 32;
-
-template <int Dim>
-Vec<Dim> reciprocal(const PeriodicBox<Dim>& box) {
-  return 2 * std::numbers::pi * box.lengths().cwiseInverse();
-}
-
 template <int Dim>
 double length_of(const std::array<int, Dim>& n, const Vec<Dim>& unit) {
   if constexpr (Dim == 2)
@@ -33,92 +25,6 @@ double length_of(const std::array<int, Dim>& n, const Vec<Dim>& unit) {
   else
     return std::hypot(n[0] * unit[0], n[1] * unit[1], n[2] * unit[2]);
 }
-
-/// exp(i n φ) of a block of particles for n = 0 … order; real and imaginary parts apart.
-class Powers {
- public:
-  explicit Powers(int order)
-      : real_((static_cast<std::size_t>(order) + 1) * block), imaginary_(real_.size()) {
-    std::fill_n(real_.begin(), block, 1.0);
-  }
-
-  void set(std::size_t p, double phase) {
-    if (real_.size() == block) return;
-    real_[block + p] = std::cos(phase);
-    imaginary_[block + p] = std::sin(phase);
-  }
-  void multiply() {
-    const double *re = real_.data(), *im = imaginary_.data();
-    for (std::size_t from = block; from + block < real_.size(); from += block)
-      for (std::size_t p = 0; p < block; ++p) {
-        const double c = re[from + p], s = im[from + p];
-        real_[from + block + p] = c * re[block + p] - s * im[block + p];
-        imaginary_[from + block + p] = c * im[block + p] + s * re[block + p];
-      }
-  }
-  const double* real(int n) const { return &real_[static_cast<std::size_t>(n) * block]; }
-  const double* imaginary(int n) const { return &imaginary_[static_cast<std::size_t>(n) * block]; }
-
- private:
-  std::vector<double> real_, imaginary_;
-};
-
-/// ρ_q of one frame for all wave vectors.
-template <int Dim>
-class Modes {
- public:
-  using Index = std::array<int, Dim>;
-
-  Modes(const std::vector<Index>& vectors, const Vec<Dim>& unit) : vectors_(vectors), unit_(unit) {
-    for (const Index& n : vectors)
-      for (std::size_t d = 0; d < Dim; ++d) order_[d] = std::max(order_[d], std::abs(n[d]));
-  }
-
-  std::vector<std::complex<double>> of(const std::vector<Vec<Dim>>& positions) const {
-    std::vector<std::complex<double>> sums(vectors_.size());
-    std::vector<Powers> powers(order_.begin(), order_.end());
-    for (std::size_t begin = 0; begin < positions.size(); begin += block) {
-      const std::size_t count = std::min(block, positions.size() - begin);
-      for (std::size_t d = 0; d < Dim; ++d) {
-        const int axis = static_cast<int>(d);
-        for (std::size_t p = 0; p < count; ++p)
-          powers[d].set(p, unit_[axis] * positions[begin + p][axis]);
-        powers[d].multiply();
-      }
-      for (std::size_t v = 0; v < vectors_.size(); ++v) sums[v] += sum(powers, vectors_[v], count);
-    }
-    return sums;
-  }
-
- private:
-  static std::complex<double> sum(const std::vector<Powers>& powers, const Index& n,
-                                  std::size_t count) {
-    std::array<const double*, Dim> real_parts, imaginary_parts;
-    std::array<double, Dim> sign;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      real_parts[d] = powers[d].real(std::abs(n[d]));
-      imaginary_parts[d] = powers[d].imaginary(std::abs(n[d]));
-      sign[d] = n[d] < 0 ? -1 : 1;
-    }
-    double real[2] = {}, imaginary[2] = {};  // even and odd particles, added at once
-    for (std::size_t p = 0; p < count; ++p) {
-      double re = real_parts[0][p], im = sign[0] * imaginary_parts[0][p];
-      for (std::size_t d = 1; d < Dim; ++d) {
-        const double c = real_parts[d][p], s = sign[d] * imaginary_parts[d][p];
-        const double next = re * c - im * s;
-        im = re * s + im * c;
-        re = next;
-      }
-      real[p % 2] += re;
-      imaginary[p % 2] += im;
-    }
-    return {real[0] + real[1], imaginary[0] + imaginary[1]};
-  }
-
-  const std::vector<Index>& vectors_;
-  Vec<Dim> unit_;
-  Index order_{};
-};
 
 /// ρ(t) of every wave vector: [vector][frame].
 using Series = std::vector<std::vector<std::complex<double>>>;
@@ -128,7 +34,7 @@ Series read_modes(Trajectory<Dim>& trajectory, const std::vector<std::array<int,
                   int threads, const ProgressReport& report) {
   const std::size_t frames = trajectory.frames();
   const Vec<Dim> lengths = trajectory.read_places(0).box.lengths();
-  const Modes<Dim> modes(vectors, reciprocal(PeriodicBox<Dim>(lengths)));
+  const DensityModes<Dim> modes(vectors, PeriodicBox<Dim>(lengths));
   Series series(vectors.size(), std::vector<std::complex<double>>(frames));
   std::vector<std::vector<Vec<Dim>>> positions(frames_at_once);
   for (std::size_t begin = 0; begin < frames; begin += frames_at_once) {
@@ -225,7 +131,7 @@ class NearestVectors {
 
 template <int Dim>
 WaveVectorShell<Dim> wave_vector_shell(const PeriodicBox<Dim>& box, double wave_number) {
-  const Vec<Dim> unit = reciprocal(box);
+  const Vec<Dim> unit = reciprocal_lengths(box);
   const double reach = 0.5 * unit.minCoeff();
   NearestVectors<Dim> nearest;
   for_each_near<Dim>(unit, wave_number, reach, [&](const std::array<int, Dim>& n) {

@@ -93,7 +93,19 @@ std::vector<TwoTimeTable> two_time_tables() {
                          .x = "r",
                          .x_symbol = "r",
                          .levels = {1}}),
-           "length", "1"}};
+           "length", "1"},
+          {of_two_times("four_point_structure",
+                        "Four-point structure factor <|sum_i w_i exp(iq.r_i(0))|^2>/N at small q: "
+                        "w_i = 1 for particles closer than analysis.overlap_distance to where they "
+                        "were the times of table lag_times before, else 0.",
+                        {.section = in_relaxation,
+                         .heading = "Four-point structure factor",
+                         .symbol = "S₄(q, t)",
+                         .curves = {{"s4_#", "#"}},
+                         .scale = Chart::Scale::from_zero,
+                         .x = "q",
+                         .x_symbol = "q"}),
+           "1/length", "1"}};
 }
 
 Table lag_table(const std::vector<Lag>& lags) {

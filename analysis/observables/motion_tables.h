@@ -14,7 +14,7 @@ namespace vitrel {
 struct RunMotion {
   std::optional<VelocityCorrelations> velocities = {};  ///< if there are any
   std::vector<Lag> lags = {};                           ///< those of two_times
-  /// Self and distinct part of the Van Hove function.
+  /// Self and distinct part of the Van Hove function, and the four-point structure factor.
   std::vector<TwoTimeAverages> two_times = {};
 };
 

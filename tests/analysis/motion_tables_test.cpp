@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "analysis/dynamics/four_point.h"
 #include "analysis/dynamics/van_hove.h"
 #include "tests/support/free_brownian.h"
 
@@ -25,7 +26,8 @@ RunMotion motion_of(MemoryTrajectory2& trajectory) {
   return {velocity_correlations(trajectory), lags,
           average_two_times<2>(
               trajectory, lags,
-              {van_hove_self<2>({}), van_hove_distinct(first, lags, PairCorrelationOptions{})})};
+              {van_hove_self<2>({}), van_hove_distinct(first, lags, PairCorrelationOptions{}),
+               four_point_structure(first.box, 0.3)})};
 }
 
 MemoryTrajectory2 seven_frames() {
@@ -47,6 +49,8 @@ TEST(MotionTables, HaveTheColumnsThatOthersRelyOn) {
   EXPECT_EQ(names(results.find("van_hove_self")->columns),
             (Names{"r", "density_1", "density_2", "density_3"}));
   EXPECT_EQ(names(results.find("van_hove_distinct")->columns), (Names{"r", "g_1", "g_2", "g_3"}));
+  EXPECT_EQ(names(results.find("four_point_structure")->columns),
+            (Names{"q", "s4_1", "s4_2", "s4_3"}));
   EXPECT_EQ(results.find("lag_times")->find("index")->value, (std::vector<double>{1, 2, 3}));
   EXPECT_NEAR(results.find("lag_times")->find("time")->value[2], 3 * brownian_step, 1e-12);
   for (const Table& table : results.tables)

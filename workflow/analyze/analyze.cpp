@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "analysis/dynamics/four_point.h"
 #include "analysis/dynamics/time_axis.h"
 #include "analysis/dynamics/van_hove.h"
 #include "analysis/glass/glass_data.h"
@@ -158,8 +159,9 @@ RunMotion measure_motion(TrajectoryFile<Dim>& trajectory, const Parameters& para
   motion.lags = few_lags_of_motion(trajectory, options.axis);
   motion.two_times = average_two_times<Dim>(
       trajectory, motion.lags,
-      {van_hove_self<Dim>(pairs), van_hove_distinct(first, motion.lags, pairs)}, progress.report,
-      options.threads);
+      {van_hove_self<Dim>(pairs), van_hove_distinct(first, motion.lags, pairs),
+       four_point_structure(first.box, options.overlap_distance)},
+      progress.report, options.threads);
   return motion;
 }
 
