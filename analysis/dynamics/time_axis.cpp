@@ -177,18 +177,9 @@ std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions&
 
 std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOptions& axis) {
   std::vector<Lag> lags = time_axis(times, axis);
-  const std::size_t stride = stride_to(axis.max_origins, times.size());
+  const std::size_t stride = even_stride(times.size(), axis);
   lags.insert(lags.begin(), Lag{0, stride, (times.size() - 1) / stride + 1});
   return lags;
-}
-
-void share_origins(std::vector<Lag>& lags, std::size_t frames, std::size_t max_origins) {
-  const std::size_t stride = stride_to(max_origins, frames);
-  for (Lag& lag : lags) {
-    if (!lag.pairs.empty()) continue;
-    lag.stride = stride;
-    lag.origins = (frames - lag.frames - 1) / stride + 1;
-  }
 }
 
 template <int Dim>
@@ -222,7 +213,6 @@ std::vector<Lag> few_lags_of_motion(const Trajectory<Dim>& trajectory, TimeAxisO
     next = std::floor(place * (few_lags - 1) + 1e-9) + 1;
     few.push_back(std::move(lag));
   }
-  share_origins(few, trajectory.frames(), options.max_origins);
   return few;
 }
 

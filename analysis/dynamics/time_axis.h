@@ -73,10 +73,6 @@ std::size_t even_stride(std::size_t frames, const TimeAxisOptions& options);
 /// The same after time difference 0, of which all frames are origins, evenly thinned to `max_origins`.
 std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOptions& axis);
 
-/// Gives all lags of an evenly sampled run the origins 0, stride, 2 stride …, at most `max_origins` of them, so that
-/// the origins of one lag are among those of all shorter ones. Listed pairs of frames stay as they are.
-void share_origins(std::vector<Lag>& lags, std::size_t frames, std::size_t max_origins);
-
 /// The lags at which the motion of particles can be evaluated. If the run is not evenly sampled, pairs of frames with a
 /// doubtful frame between them, or at their end, are left out, and so are lags without a pair. An evenly sampled run
 /// keeps all, because its intervals are alike.

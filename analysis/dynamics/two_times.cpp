@@ -7,7 +7,7 @@ namespace {
 template <int Dim>
 TwoTimes<Dim> read_pair(Trajectory<Dim>& trajectory, const Configuration<Dim>& start,
                         std::size_t to, std::size_t origin) {
-  const Configuration<Dim>& frame = trajectory.read(to);
+  const Configuration<Dim>& frame = trajectory.read_places(to);
   TwoTimes<Dim> pair{origin, &start.position, frame.position, {}};
   for (std::size_t i = 0; i < frame.size(); ++i)
     pair.distance.push_back((frame.unwrapped(i) - start.unwrapped(i)).norm());
@@ -29,7 +29,7 @@ std::vector<TwoTimeAverages> average_two_times(Trajectory<Dim>& trajectory,
     for (std::size_t l = 0; l < lags.size(); ++l)
       if (next[l] < lags[l].origins && lags[l].from(next[l]) == from) at_lag.push_back(l);
     if (at_lag.empty()) continue;
-    const Configuration<Dim> start = trajectory.read(from);
+    const Configuration<Dim> start = trajectory.read_places(from);
     std::vector<TwoTimes<Dim>> pairs;
     for (const std::size_t l : at_lag) {
       pairs.push_back(read_pair(trajectory, start, lags[l].to(next[l]), next[l]));

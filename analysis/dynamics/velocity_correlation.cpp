@@ -138,8 +138,9 @@ template <int Dim>
 VelocityCorrelations velocity_correlations(Trajectory<Dim>& trajectory,
                                            const DisplacementOptions& options,
                                            const ProgressReport& report) {
-  std::vector<Lag> lags = lags_from_zero(trajectory.times(), options.axis);
-  share_origins(lags, trajectory.frames(), std::min(options.axis.max_origins, max_origins));
+  TimeAxisOptions axis = options.axis;
+  axis.max_origins = std::min(axis.max_origins, max_origins);
+  const std::vector<Lag> lags = lags_from_zero(trajectory.times(), axis);
   const std::size_t n = trajectory.read(0).size();
   const std::size_t intervals = spectrum_intervals(trajectory.times(), lags);
   VelocityCorrelations result;

@@ -15,8 +15,8 @@
 #include "analysis/observables/dynamics_tables.h"
 #include "analysis/observables/energy_tables.h"
 #include "analysis/observables/frame_observable.h"
-#include "analysis/observables/observable.h"
 #include "analysis/observables/motion_tables.h"
+#include "analysis/observables/observable.h"
 #include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/json.h"
@@ -146,12 +146,14 @@ RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOption
 /// What else there is of the motion between frames.
 template <int Dim>
 RunMotion measure_motion(TrajectoryFile<Dim>& trajectory, const Parameters& parameters,
-                         const AnalysisProgress& progress) {
+                         const TableChoice& wanted, const AnalysisProgress& progress) {
   RunMotion motion;
-  if (mechanics(trajectory.read(0)).translational_energy > 0) {
+  if (wanted.has({"velocity_autocorrelation", "velocity_spectrum"}) &&
+      mechanics(trajectory.read(0)).translational_energy > 0) {
     begin(progress, "velocities");
     motion.velocities = velocity_correlations(trajectory, parameters.analysis, progress.report);
   }
+  if (!wanted.has({"van_hove_self", "van_hove_distinct", "four_point_structure"})) return motion;
   begin(progress, "functions of two times");
   const Configuration<Dim> first = trajectory.read(0);
   const DisplacementOptions& options = parameters.analysis;
@@ -270,7 +272,7 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
   const TableChoice wanted(parameters.only);
   if (run.obstacle.empty() && wants_motion(wanted))
     run.dynamics = measure_dynamics(trajectory, parameters.analysis, wanted, progress);
-  if (run.dynamics) run.motion = measure_motion(trajectory, parameters, progress);
+  if (run.obstacle.empty()) run.motion = measure_motion(trajectory, parameters, wanted, progress);
   begin(progress, "structure");
   std::vector<std::string> of_frames = wanted.tables();
   if (!of_frames.empty() && wanted.has({"relaxation"})) of_frames.emplace_back("order");
@@ -341,12 +343,21 @@ void leave_out(Results& results, const std::string& what, const std::string& why
   results.provenance.emplace_back("left_out_" + what, why);
 }
 
-/// Some tables are measured for the sake of others. The summary is always there.
+/// Some tables are measured for the sake of others. The summary is always there, and so are the numbers that columns of
+/// other tables are counted by, such as wave numbers.
 void keep_wanted(Results& results, const TableChoice& wanted, int dimension) {
   const std::vector<Observable> all = observables(dimension);
+  const auto is_counted_by = [](const Observable& other, const std::string& name) {
+    return std::ranges::any_of(other.charts,
+                               [&](const Chart& chart) { return chart.numbers.table == name; });
+  };
   std::erase_if(results.tables, [&](const Table& table) {
     const Observable* observable = find(all, table.name);
-    return table.name != "summary" && observable && !wanted.has({observable->table});
+    if (table.name == "summary" || !observable) return false;
+    return std::ranges::none_of(all, [&](const Observable& other) {
+      return wanted.has({other.table}) &&
+             (&other == observable || is_counted_by(other, table.name));
+    });
   });
 }
 
