@@ -17,11 +17,7 @@ namespace vitrel {
 
 namespace {
 
-/// Of every lag: fewer where many particles are averaged over at each.
-std::size_t max_origins(std::size_t particles) {
-  constexpr std::size_t fewest = 64, most = 256, particles_at_all = std::size_t{1} << 21;
-  return std::clamp(particles_at_all / std::max<std::size_t>(1, particles), fewest, most);
-}
+constexpr std::size_t max_origins = 256;
 
 /// Six neighbours on the average, and where those of a particle begin.
 constexpr double neighbor_bytes = 6 * sizeof(std::uint32_t) + sizeof(std::uint32_t);
@@ -167,7 +163,7 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
     throw UserError("cage-relative displacements: at least two frames are needed");
   const Configuration2& first = trajectory.read_places(0);
   TimeAxisOptions axis = options.axis;
-  axis.max_origins = std::min(axis.max_origins, max_origins(first.size()));
+  axis.max_origins = std::min(axis.max_origins, origins_for(first.size(), max_origins));
   const std::vector<Lag> lags = time_axis_of_motion(trajectory, axis);
   const std::vector<bool> is_origin = origins_of(lags, trajectory.frames());
   if (!fits(is_origin, first.size(), options.memory)) return std::nullopt;

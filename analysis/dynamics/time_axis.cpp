@@ -15,7 +15,7 @@ constexpr double single_precision = 0x1p-24;
 /// The most that time differences taken as equal may differ by, relative.
 constexpr double widest = 1e-3;
 /// Of functions of more than the time difference.
-constexpr std::size_t few_lags = 10, few_origins = 128;
+constexpr std::size_t few_lags = 10;
 
 std::size_t stride_to(std::size_t most, std::size_t available) {
   return (available + most - 1) / most;
@@ -160,6 +160,11 @@ std::vector<Lag> uneven_lags(std::span<const double> times, const TimeAxisOption
 }
 
 }  // namespace
+
+std::size_t origins_for(std::size_t particles, std::size_t most) {
+  constexpr std::size_t particles_at_all = std::size_t{1} << 21;
+  return std::clamp(particles_at_all / std::max<std::size_t>(1, particles), most / 4, most);
+}
 
 std::size_t even_stride(std::size_t frames, const TimeAxisOptions& options) {
   return stride_to(options.only_first_origin ? 1 : options.max_origins, frames);

@@ -67,6 +67,10 @@ struct Lag {
 /// and a second for the pairs.
 std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions& options = {});
 
+/// Origins enough for averages over so many particles at each of them: `most`, but fewer, down to a quarter, if together
+/// these were more than 2²¹ particles.
+std::size_t origins_for(std::size_t particles, std::size_t most);
+
 /// Of an evenly sampled run every so many frames one is an origin.
 std::size_t even_stride(std::size_t frames, const TimeAxisOptions& options);
 
@@ -79,6 +83,9 @@ std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOpt
 template <int Dim>
 std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
                                      const TimeAxisOptions& options = {});
+
+/// At most, of few_lags_of_motion.
+inline constexpr std::size_t few_origins = 128;
 
 /// Ten of those lags, or fewer, about equally far apart on a logarithmic scale, the shortest and the longest among
 /// them: for functions of more than the time difference. They share origins, 128 at most.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "analysis/dynamics/like_particles.h"
 #include "analysis/dynamics/tracks.h"
@@ -17,8 +18,10 @@ constexpr std::size_t max_spectrum_lags = 400;
 /// Particles whose velocities stay in the cache.
 constexpr std::size_t particles_at_once = 16;
 
-/// The components of v, or of ω, of one particle at every frame.
+/// The components of v, and then those of ω if particles turn, of one particle at every frame.
 using Components = std::vector<FrameSeries>;
+template <int Dim>
+constexpr std::size_t angular_components = Dim == 2 ? 1 : 3;
 
 double component(double omega, std::size_t) {
   return omega;
@@ -30,8 +33,7 @@ double component(const Vector& v, std::size_t d) {
 
 template <int Dim>
 std::vector<Components> read_components(Trajectory<Dim>& trajectory, std::size_t begin,
-                                        std::size_t end, bool angular) {
-  const std::size_t count = angular && Dim == 2 ? 1 : Dim;
+                                        std::size_t end, std::size_t count) {
   std::vector<Components> particles(end - begin,
                                     Components(count, FrameSeries(trajectory.frames())));
   for (std::size_t k = 0; k < trajectory.frames(); ++k) {
@@ -40,13 +42,14 @@ std::vector<Components> read_components(Trajectory<Dim>& trajectory, std::size_t
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t d = 0; d < count; ++d)
         particles[i - begin][d][k] =
-            angular ? component(frame.angular_velocity[i], d) : component(velocity[i], d);
+            d < Dim ? component(velocity[i], d) : component(frame.angular_velocity[i], d - Dim);
   }
   return particles;
 }
 
 /// v² and v(0)·v(t) of one particle.
-void add(MomentSum& sum, const Components& velocity, const Lag& lag, std::size_t its_class) {
+void add(MomentSum& sum, std::span<const FrameSeries> velocity, const Lag& lag,
+         std::size_t its_class) {
   std::vector<double> squares(lag.origins), products(lag.origins);
   for (const FrameSeries& v : velocity)
     for (std::size_t k = 0; k < lag.origins; ++k) {
@@ -58,25 +61,33 @@ void add(MomentSum& sum, const Components& velocity, const Lag& lag, std::size_t
   sum.finish_particle(its_class);
 }
 
-/// The sums of all particles at every lag. Threads share the lags, so that every sum adds up its particles in their
-/// order.
+/// Of v and ω at every lag.
+struct VelocitySums {
+  std::vector<MomentSum> translation, rotation;
+};
+
+/// The sums of all particles. Threads share the lags, so that every sum adds up its particles in their order.
 template <int Dim>
-std::vector<MomentSum> sums_of(Trajectory<Dim>& trajectory, const std::vector<Lag>& lags,
-                               bool angular, const DisplacementOptions& options,
-                               const ProgressReport& report) {
+VelocitySums sums_of(Trajectory<Dim>& trajectory, const std::vector<Lag>& lags, bool rotates,
+                     const DisplacementOptions& options, const ProgressReport& report) {
   const LikeParticles alike = like_particles(trajectory.read(0));
   const std::size_t n = trajectory.read(0).size();
-  const std::size_t batch = options.memory / (Dim * sizeof(double) * trajectory.frames()) + 1;
-  std::vector<MomentSum> sums;
-  for (const Lag& lag : lags) sums.emplace_back(lag.origins, alike.classes);
+  const std::size_t count = Dim + (rotates ? angular_components<Dim> : 0);
+  const std::size_t batch = options.memory / (count * sizeof(double) * trajectory.frames()) + 1;
+  VelocitySums sums;
+  for (const Lag& lag : lags) sums.translation.emplace_back(lag.origins, alike.classes);
+  if (rotates) sums.rotation = sums.translation;
   for (std::size_t begin = 0; begin < n; begin += batch) {
     const std::size_t end = std::min(begin + batch, n);
-    const auto particles = read_components(trajectory, begin, end, angular);
+    const auto particles = read_components(trajectory, begin, end, count);
     for (std::size_t first = begin; first < end; first += particles_at_once)
       in_parallel(lags.size(), options.threads, [&](std::size_t from, std::size_t to) {
         for (std::size_t l = from; l < to; ++l)
-          for (std::size_t i = first; i < std::min(first + particles_at_once, end); ++i)
-            add(sums[l], particles[i - begin], lags[l], alike.class_of[i]);
+          for (std::size_t i = first; i < std::min(first + particles_at_once, end); ++i) {
+            const std::span<const FrameSeries> both = particles[i - begin];
+            add(sums.translation[l], both.first(Dim), lags[l], alike.class_of[i]);
+            if (rotates) add(sums.rotation[l], both.subspan(Dim), lags[l], alike.class_of[i]);
+          }
       });
     const double done = static_cast<double>(end);
     if (report) report({done / static_cast<double>(n), done, "particles"});
@@ -144,11 +155,10 @@ VelocityCorrelations velocity_correlations(Trajectory<Dim>& trajectory,
   const std::size_t n = trajectory.read(0).size();
   const std::size_t intervals = spectrum_intervals(trajectory.times(), lags);
   VelocityCorrelations result;
-  result.translation =
-      evaluate(sums_of(trajectory, lags, false, options, report), n, lags, intervals);
-  if (mechanics(trajectory.read(0)).rotational_energy > 0)
-    result.rotation =
-        evaluate(sums_of(trajectory, lags, true, options, report), n, lags, intervals);
+  const bool rotates = mechanics(trajectory.read(0)).rotational_energy > 0;
+  const VelocitySums sums = sums_of(trajectory, lags, rotates, options, report);
+  result.translation = evaluate(sums.translation, n, lags, intervals);
+  if (rotates) result.rotation = evaluate(sums.rotation, n, lags, intervals);
   for (const Lag& lag : lags) {
     result.lag.push_back(lag.time);
     result.origins.push_back(lag.origins);

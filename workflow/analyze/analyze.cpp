@@ -158,7 +158,9 @@ RunMotion measure_motion(TrajectoryFile<Dim>& trajectory, const Parameters& para
   const Configuration<Dim> first = trajectory.read(0);
   const DisplacementOptions& options = parameters.analysis;
   const PairCorrelationOptions& pairs = parameters.structure.pairs;
-  motion.lags = few_lags_of_motion(trajectory, options.axis);
+  TimeAxisOptions axis = options.axis;
+  axis.max_origins = std::min(axis.max_origins, origins_for(first.size(), few_origins));
+  motion.lags = few_lags_of_motion(trajectory, axis);
   motion.two_times = average_two_times<Dim>(
       trajectory, motion.lags,
       {van_hove_self<Dim>(pairs), van_hove_distinct(first, motion.lags, pairs),
