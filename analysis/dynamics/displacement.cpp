@@ -218,8 +218,10 @@ Displacements displacements(Trajectory<Dim>& trajectory, const DisplacementOptio
   if (times.size() < 2)
     throw UserError("displacements: the run holds " + std::to_string(times.size()) +
                     " frame(s); a displacement needs at least two");
-  const std::vector<Lag> lags = time_axis_of_motion(trajectory, options.axis);
   const Configuration<Dim>& first = trajectory.read_places(0);
+  TimeAxisOptions axis = options.axis;
+  axis.max_origins = origins_for(first.size(), axis.max_origins);
+  const std::vector<Lag> lags = time_axis_of_motion(trajectory, axis);
   const TrackQuantities<Dim> quantities{wave_numbers_or_main(options.wave_numbers, first),
                                         orders_or_default(options.orders, Dim), axis_count(first),
                                         options.overlap_distance, options.parts};

@@ -69,7 +69,8 @@ struct Displacements {
   Correlation susceptibility;
 };
 
-/// One pass over particles, lags and origins. Lags and origins are those of the time axis; averages
+/// One pass over particles, lags and origins. Lags and origins are those of the time axis, with fewer origins of many
+/// particles (origins_for); averages
 /// and errors are described at CorrelationSum, those of ratios at MomentSum, χ_4 at susceptibility.
 ///
 /// The file is read once, or several times for a few particles each if the tracks exceed `memory`;

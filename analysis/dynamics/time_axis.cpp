@@ -163,7 +163,8 @@ std::vector<Lag> uneven_lags(std::span<const double> times, const TimeAxisOption
 
 std::size_t origins_for(std::size_t particles, std::size_t most) {
   constexpr std::size_t particles_at_all = std::size_t{1} << 21;
-  return std::clamp(particles_at_all / std::max<std::size_t>(1, particles), most / 4, most);
+  return std::clamp(particles_at_all / std::max<std::size_t>(1, particles),
+                    std::max<std::size_t>(1, most / 4), most);
 }
 
 std::size_t even_stride(std::size_t frames, const TimeAxisOptions& options) {
