@@ -8,9 +8,9 @@
 #include "analysis/observables/dynamics_tables.h"
 #include "analysis/observables/energy_tables.h"
 #include "analysis/observables/frame_observable.h"
+#include "analysis/observables/motion_tables.h"
 #include "core/error.h"
 #include "core/io/suggestion.h"
-#include "analysis/observables/motion_tables.h"
 
 namespace vitrel {
 namespace {
