@@ -58,8 +58,8 @@ void tell(const ProgressReport& report, std::size_t done, std::size_t of, const 
   if (report) report({share, static_cast<double>(done), quantity});
 }
 
-/// All positions, and the cages at the origins. Particles are numbered by their places in `order`, in which neighbours are
-/// near in memory.
+/// All positions, and the cages at the origins. Particles are numbered by their places in `order`, in which neighbours
+/// are near in memory.
 class Recording {
  public:
   Recording(Trajectory2& trajectory, const std::vector<std::uint32_t>& order,

@@ -67,8 +67,8 @@ struct Lag {
 /// and a second for the pairs.
 std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions& options = {});
 
-/// Origins enough for averages over so many particles at each of them: `most`, but fewer, down to a quarter, if together
-/// these were more than 2²¹ particles.
+/// Origins enough for averages over so many particles at each of them: `most`, but fewer, down to a quarter, if
+/// together these were more than 2²¹ particles.
 std::size_t origins_for(std::size_t particles, std::size_t most);
 
 /// Of an evenly sampled run every so many frames one is an origin.

@@ -6,8 +6,8 @@
 #include "analysis/structure/structure_options.h"
 
 /// @file
-/// Van Hove's functions, the probability to find a particle at r at time t if there was one at 0 at time 0 (vanhove1954):
-/// the same one, or another,
+/// Van Hove's functions, the probability to find a particle at r at time t if there was one at 0 at time 0
+/// (vanhove1954): the same one, or another,
 ///
 ///     G_s(r, t) = N⁻¹ ⟨Σ_i δ(r − [r_i(t) − r_i(0)])⟩,  G_d(r, t) = N⁻¹ ⟨Σ_{i≠j} δ(r − [r_j(t) − r_i(0)])⟩,
 ///

@@ -57,8 +57,8 @@ struct FrameResults {
   OrderSeries order;
 };
 
-/// How many frames averages are taken over: a frame of many particles says more. At least 64 of those that were asked for, for
-/// errors by blocks in time.
+/// How many frames averages are taken over: a frame of many particles says more. At least 64 of those that were asked
+/// for, for errors by blocks in time.
 std::size_t frames_for(std::size_t particles, const StructureOptions& options);
 
 /// Frames are read one after another and measured on up to `threads` threads, some at a time; the results do

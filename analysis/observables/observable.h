@@ -73,8 +73,8 @@ const Observable* find(const std::vector<Observable>& all, std::string_view tabl
 /// The tables that are asked for.
 class TableChoice {
  public:
-  /// Names of tables without their group, or other names that they have (Observable::also), separated by commas; empty: all.
-  /// Throws UserError for a name that no table has.
+  /// Names of tables without their group, or other names that they have (Observable::also), separated by commas; empty:
+  /// all. Throws UserError for a name that no table has.
   explicit TableChoice(std::string_view names);
 
   /// Whether one of these is asked for.

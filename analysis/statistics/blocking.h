@@ -54,8 +54,8 @@ std::size_t correlation_steps(std::span<const double> series);
 
 /// Of a series that may be slow: by blocking, or if that sees no plateau, from blocks of twice the
 /// correlation time of the series itself, for which sixteen correlation times are enough. The error
-/// covers the truth in 64 % of the cases then, instead of 68 (measured). No blocks are shorter than `shortest_block`: of a
-/// series whose noise hides what another one shows to be slow.
+/// covers the truth in 64 % of the cases then, instead of 68 (measured). No blocks are shorter than `shortest_block`:
+/// of a series whose noise hides what another one shows to be slow.
 Estimate slow_average(std::span<const double> series, std::size_t shortest_block = 1);
 
 /// The same for a series that comes value by value and is not kept: for every block length it holds

@@ -19,8 +19,8 @@ double shell_volume(double inner, double outer) {
   return 4 * std::numbers::pi / 3 * (outer * outer * outer - inner * inner * inner);
 }
 
-/// Bins of the distance of two particles, the k-th from k to k + 1 steps, as far as whole bins fit below distance_max and half
-/// the shortest side of the box.
+/// Bins of the distance of two particles, the k-th from k to k + 1 steps, as far as whole bins fit below distance_max
+/// and half the shortest side of the box.
 template <int Dim>
 class DistanceBins {
  public:

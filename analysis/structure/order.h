@@ -61,8 +61,8 @@ struct NematicCorrelation {
   std::vector<std::size_t> pairs;  ///< independent angles scatter by 1/√(2 pairs)
 };
 /// `width` of a bin, about; it is rounded so that a whole number of bins fits. Every pair counts
-/// once; beyond 4096 particles only pairs with one of 4096 (or a few less) evenly picked ones do, beyond 32 768 with one of
-/// 2²⁷/N: cost O(N) then. `pairs` tells how many there were.
+/// once; beyond 4096 particles only pairs with one of 4096 (or a few less) evenly picked ones do, beyond 32 768 with
+/// one of 2²⁷/N: cost O(N) then. `pairs` tells how many there were.
 /// Empty without two particles that are not round.
 NematicCorrelation nematic_correlation(const Configuration2& configuration, double width);
 /// The distance beyond which g₂ stays below 1/e: the far end of the last bin where it does not. 0

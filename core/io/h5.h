@@ -21,8 +21,8 @@
 /// nothing more is written, and later operations on that file throw again. A file may be read while another process
 /// writes it: every operation sees the content of the same commit, or throws ChangedFile.
 ///
-/// T is one of double, float, int16_t, int32_t, int64_t, uint64_t, uint8_t; numbers are stored little-endian, and converted
-/// to the type of the array.
+/// T is one of double, float, int16_t, int32_t, int64_t, uint64_t, uint8_t; numbers are stored little-endian, and
+/// converted to the type of the array.
 namespace vitrel::h5 {
 
 using Id = std::int64_t;

@@ -44,9 +44,9 @@
 /// no contacts under way, but the pairs that are still close.
 ///
 /// Every {step, time} is one dataset under many names. Numbers are stored as they are in memory, so a wrapped
-/// configuration read back is bit-identical; in single precision they have 24 bits, of which an unwrapped angle also needs
-/// some for its turns. Images have 16 bits until a particle needs 32. Several frames, and up to 1024 particles, lie together
-/// in a chunk.
+/// configuration read back is bit-identical; in single precision they have 24 bits, of which an unwrapped angle also
+/// needs some for its turns. Images have 16 bits until a particle needs 32. Several frames, and up to 1024 particles,
+/// lie together in a chunk.
 namespace vitrel {
 
 using Observables = std::map<std::string, double>;
@@ -66,10 +66,10 @@ template <int Dim>
 void write_state(const std::filesystem::path& path, const Configuration<Dim>& configuration,
                  const Provenance& provenance, bool overwrite = false);
 
-/// Writes a trajectory frame by frame. Frames are collected until they fill chunks of the file. `write` saves all frames that
-/// are not in the file yet if half a second has passed since it last did; they reach the file whole or not at all. A process
-/// killed at any moment, or a full disk, leaves the frames that were saved. Other processes may read the file meanwhile.
-/// Throws FileError if the file cannot be written.
+/// Writes a trajectory frame by frame. Frames are collected until they fill chunks of the file. `write` saves all
+/// frames that are not in the file yet if half a second has passed since it last did; they reach the file whole or not
+/// at all. A process killed at any moment, or a full disk, leaves the frames that were saved. Other processes may read
+/// the file meanwhile. Throws FileError if the file cannot be written.
 ///
 /// Memory for up to 16 frames, fewer above 32 768 particles.
 class TrajectoryWriter {
@@ -194,18 +194,19 @@ class TrajectoryObserver : public Observer<Dim> {
   Measure measure_;
 };
 
-/// Reads trajectories one frame at a time: vitrel's own, and those of other programs, which are first brought into the same
-/// form (core/io/foreign/foreign_file.h). What a file may lack, and what then is read: image: 0; velocity, angular_velocity: 0;
-/// angle: taken from the orientation, then not unwrapped; orientation: that of the axes, if all particles are round.
+/// Reads trajectories one frame at a time: vitrel's own, and those of other programs, which are first brought into the
+/// same form (core/io/foreign/foreign_file.h). What a file may lack, and what then is read: image: 0; velocity,
+/// angular_velocity: 0; angle: taken from the orientation, then not unwrapped; orientation: that of the axes, if all
+/// particles are round.
 ///
-/// A frame is read into a configuration of the dimension of the file; `require_dimension` says so before any frame is asked
-/// for. Orientations in three dimensions must have the norm 1.
+/// A frame is read into a configuration of the dimension of the file; `require_dimension` says so before any frame is
+/// asked for. Orientations in three dimensions must have the norm 1.
 ///
-/// A file may be read while another process adds frames to it. The reader then has the frames that were in the file when
-/// it was opened.
+/// A file may be read while another process adds frames to it. The reader then has the frames that were in the file
+/// when it was opened.
 ///
-/// Times must be finite, and the particles must fit into the box, soft ones with some overlap. FileError names the file, the
-/// dataset, and what would be right.
+/// Times must be finite, and the particles must fit into the box, soft ones with some overlap. FileError names the
+/// file, the dataset, and what would be right.
 class TrajectoryReader {
  public:
   /// `known`: what a file of another program may lack, and how to read it.

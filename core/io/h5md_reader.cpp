@@ -27,8 +27,8 @@ TrajectoryReader::TrajectoryReader(const fs::path& path, const KnownSystem& know
   if (import_.file.is_being_written()) report_progress();
 }
 
-/// The result of `read`, which sees the content of one commit (h5::read_consistently). Within another such reading it is
-/// a part of that one, which begins again as a whole.
+/// The result of `read`, which sees the content of one commit (h5::read_consistently). Within another such reading it
+/// is a part of that one, which begins again as a whole.
 template <class Read>
 std::invoke_result_t<Read> TrajectoryReader::consistently(Read&& read) const {
   if (is_reading_) return read();

@@ -81,7 +81,8 @@ std::string key_of(const ForceForm& form, const RestitutionDomain& domain,
       domain.m.high, domain.d.low, domain.d.high, options.tolerance, options.min_width);
 }
 
-/// The checksum of all numbers. A program that changes the file makes the checksums of HDF5 right again, but not this one.
+/// The checksum of all numbers. A program that changes the file makes the checksums of HDF5 right again, but not this
+/// one.
 template <class Content>
 std::uint64_t checksum_of(const Content& content) {
   WordChecksum checksum;

@@ -56,8 +56,8 @@ DisplacementOptions two_wave_numbers() {
   return {.wave_numbers = {2, 4}, .overlap_distance = overlap_distance};
 }
 
-// Five standard errors from 16 blocks or more: false-alarm rate 0.16 per mille by Student's distribution, for each of 84
-// points.
+// Five standard errors from 16 blocks or more: false-alarm rate 0.16 per mille by Student's distribution, for each of
+// 84 points.
 TEST(Displacement, FreeBrownianParticlesFollowTheClosedForms) {
   const Configuration2 start = ellipses(100);
   MemoryTrajectory2 trajectory = free_brownian(start, 801, 1);

@@ -1,4 +1,5 @@
-// How the work of commands grows with the length of a run, by counts of what they ask of the libraries and of the system.
+// How the work of commands grows with the length of a run, by counts of what they ask of the libraries and of the
+// system.
 #include <dlfcn.h>
 #include <fftw3.h>
 #include <gtest/gtest.h>

@@ -170,8 +170,8 @@ Parameters load_parameters(const ParameterSource& source);
 /// Parses parameters stored in a file; `name` stands for it in messages.
 Parameters parse_parameters(const std::string& text, const std::string& name,
                             const std::vector<std::string>& overrides = {});
-/// The same for those of a run that may have been begun by an earlier version, which without recording it kept the angular
-/// velocities of all ellipsoids constant, and drew sizes and shapes anew for each seed.
+/// The same for those of a run that may have been begun by an earlier version, which without recording it kept the
+/// angular velocities of all ellipsoids constant, and drew sizes and shapes anew for each seed.
 Parameters recorded_parameters(const std::string& text, const std::string& name);
 
 /// All values in force as TOML text, without [sweep]; equal parameters give equal text.

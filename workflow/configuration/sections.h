@@ -4,8 +4,8 @@
 #include "workflow/rules.h"
 
 /// @file
-/// The sections of the parameter file. For each there is a function that names its fields with their bounds, and one that
-/// throws BadValue for values that do not suit each other.
+/// The sections of the parameter file. For each there is a function that names its fields with their bounds, and one
+/// that throws BadValue for values that do not suit each other.
 namespace vitrel {
 
 /// The fields of `part`, as `describe` names them.

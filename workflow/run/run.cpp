@@ -199,7 +199,8 @@ class RunJob {
                 true);
   }
 
-  /// Contacts that did not follow their law count in the summary. If they are many, the results are not those of the law.
+  /// Contacts that did not follow their law count in the summary. If they are many, the results are not those of the
+  /// law.
   void warn_of_exceptions() const {
     constexpr double acceptable_share = 0.05;
     const RunCounters& c = stored_.state.counters;
