@@ -83,7 +83,7 @@ class TrajectoryWriter {
                                  const Provenance& provenance,
                                  const TrajectoryOptions& options = {});
   TrajectoryWriter(TrajectoryWriter&&) = default;
-  TrajectoryWriter& operator=(TrajectoryWriter&&) = default;
+  TrajectoryWriter& operator=(TrajectoryWriter&&) = delete;  // it would lose frames
   /// Closes too, but cannot report a failure.
   ~TrajectoryWriter();
   /// Continues a file after its first `frames_to_keep` frames; later ones are dropped. FileError if
@@ -127,7 +127,7 @@ class TrajectoryWriter {
     /// Room for the numbers of one more frame.
     std::span<T> add_frame(std::size_t numbers);
     void add(std::span<const T> frame);
-    /// Behind what the file has.
+    /// Puts what was added behind what the file has.
     void write();
   };
   using Numbers = Series<double>;
@@ -283,8 +283,11 @@ class TrajectoryReader {
     std::uint64_t first = 0, frames = 0;
     std::size_t numbers = 0;  ///< of a frame
     std::vector<double> values = {};
+    const double* at(std::uint64_t frame) const { return &values[(frame - first) * numbers]; }
   };
-  const double* frame_of(const h5::Dataset& values, std::uint64_t frame) const;
+  void load(Block& block, const h5::Dataset& values, std::uint64_t frame) const;
+  template <class Open>
+  const Block& block_with(const std::string& name, std::uint64_t frame, Open&& open) const;
   /// One row for every particle.
   struct Rows {
     const double* values = nullptr;
@@ -321,7 +324,7 @@ class TrajectoryReader {
   std::variant<Configuration2, Configuration3> fixed_;   ///< what all frames share
   mutable std::map<std::string, h5::Dataset> datasets_;  ///< those in use stay open
   mutable std::map<std::string, bool> present_;          ///< these datasets, or not; slow to ask
-  mutable std::map<std::string, Block> blocks_;          ///< by dataset, around the frame read last
+  mutable std::map<std::string, Block> blocks_;          ///< by element, around the frame read last
 };
 
 /// The last frame of a trajectory. FileError if there is none.

@@ -246,53 +246,66 @@ const h5::Dataset& TrajectoryReader::element(const std::string& name,
   return values;
 }
 
-/// The numbers of a frame. They are finite.
-const double* TrajectoryReader::frame_of(const h5::Dataset& values, std::uint64_t frame) const {
-  Block& block = blocks_[values.name()];
-  if (frame < block.first || frame >= block.first + block.frames) {
-    const h5::Shape shape = values.shape();
-    if (shape.at(0) < frames())
-      fail("the dataset " + values.name() + " has fewer frames than step");
-    const std::uint64_t together = values.frames_per_chunk();
-    block.frames = 0;
-    block.first = frame / together * together;
-    block.numbers =
-        std::accumulate(shape.begin() + 1, shape.end(), std::size_t{1}, std::multiplies());
-    const std::uint64_t count = std::min(together, frames() - block.first);
-    block.values.resize(count * block.numbers);
-    values.read_frames<double>(block.first, count, block.values);
-    const auto strange =
-        std::ranges::find_if_not(block.values, [](double x) { return std::isfinite(x); });
-    if (strange != block.values.end())
-      fail("the dataset " + values.name() + " has numbers that are not finite in frame " +
-           std::to_string(block.first + static_cast<std::size_t>(strange - block.values.begin()) /
-                                            block.numbers));
-    block.frames = count;
-  }
-  return block.values.data() + (frame - block.first) * block.numbers;
+/// Reads the frames of the chunk with this one. They are finite.
+void TrajectoryReader::load(Block& block, const h5::Dataset& values, std::uint64_t frame) const {
+  constexpr std::uint64_t most_numbers = std::uint64_t{1}
+                                         << 22;  // in memory, of chunks that others made
+  const h5::Shape shape = values.shape();
+  if (shape.at(0) < frames()) fail("the dataset " + values.name() + " has fewer frames than step");
+  block.frames = 0;
+  block.numbers =
+      std::accumulate(shape.begin() + 1, shape.end(), std::size_t{1}, std::multiplies());
+  const std::uint64_t most = most_numbers / std::max<std::size_t>(1, block.numbers) + 1;
+  const std::uint64_t together = std::min(values.frames_per_chunk(), most);
+  block.first = frame / together * together;
+  const std::uint64_t count = std::min(together, frames() - block.first);
+  block.values.resize(count * block.numbers);
+  values.read_frames<double>(block.first, count, block.values);
+  const auto strange =
+      std::ranges::find_if_not(block.values, [](double x) { return std::isfinite(x); });
+  if (strange != block.values.end())
+    fail("the dataset " + values.name() + " has numbers that are not finite in frame " +
+         std::to_string(block.first +
+                        static_cast<std::size_t>(strange - block.values.begin()) / block.numbers));
+  block.frames = count;
+}
+
+/// The dataset, which `open` checks and returns, is asked for only where the frame is not in memory.
+template <class Open>
+const TrajectoryReader::Block& TrajectoryReader::block_with(const std::string& name,
+                                                            std::uint64_t frame,
+                                                            Open&& open) const {
+  Block& block = blocks_[name];
+  if (frame < block.first || frame >= block.first + block.frames) load(block, open(), frame);
+  return block;
 }
 
 /// Of an element with at least so many numbers per particle.
 TrajectoryReader::Rows TrajectoryReader::rows(const std::string& name, const std::string& meaning,
                                               std::uint64_t frame, std::size_t numbers) const {
-  const h5::Dataset& values = element(name, meaning);
-  const h5::Shape shape = values.shape();
-  const std::size_t stored = shape.size() == 3 ? shape.back() : 1;
-  if (stored < numbers)
-    fail("the dataset " + values.name() + " should have " + std::to_string(numbers) +
-         " numbers per particle");
-  return {frame_of(values, frame), stored};
+  const Block& block = block_with(name, frame, [&]() -> const h5::Dataset& {
+    const h5::Dataset& values = element(name, meaning);
+    const h5::Shape shape = values.shape();
+    if ((shape.size() == 3 ? shape.back() : 1) < numbers)
+      fail("the dataset " + values.name() + " should have " + std::to_string(numbers) +
+           " numbers per particle");
+    return values;
+  });
+  if (particles() == 0) return {};
+  return {block.at(frame), block.numbers / particles()};
 }
 
 template <int Dim>
 void TrajectoryReader::read_box(std::uint64_t frame, Configuration<Dim>& configuration) const {
-  const h5::Dataset& edges = dataset(group_ + "/box/edges/value", "the box lengths");
-  const h5::Shape shape = edges.shape();
-  if (shape.size() != 3 || shape[1] != 3 || shape[2] != 3)
-    fail("the dataset " + edges.name() + " should hold three cell vectors per frame");
-  const double* values = frame_of(edges, frame);
+  const Block& block = block_with("box/edges", frame, [&]() -> const h5::Dataset& {
+    const h5::Dataset& edges = dataset(group_ + "/box/edges/value", "the box lengths");
+    const h5::Shape shape = edges.shape();
+    if (shape.size() != 3 || shape[1] != 3 || shape[2] != 3)
+      fail("the dataset " + edges.name() + " should hold three cell vectors per frame");
+    return edges;
+  });
   Vec<Dim> lengths;
-  for (std::size_t k = 0; k < Dim; ++k) lengths[k] = values[4 * k];
+  for (std::size_t k = 0; k < Dim; ++k) lengths[k] = block.at(frame)[4 * k];
   if (lengths.minCoeff() <= 0)
     fail(fmt::format("the box of frame {} is {}, but its edges should be finite and above 0", frame,
                      fmt::join(lengths, " × ")));

@@ -20,10 +20,10 @@ const std::string all = "particles/all";
 /// The z edge of the box of a two-dimensional system, which means nothing but must not be 0.
 constexpr double height = 1;
 
-/// Of one number, or a few.
+/// In a chunk of a series that has one number per frame, or a few.
 constexpr std::uint64_t entries_per_chunk = 128;
 
-/// As many as make chunks of some hundred kilobytes, or fewer if they took more than some ten megabytes of memory.
+/// Chunks have some hundred kilobytes, and the frames of a row of them take no more than some ten megabytes of memory.
 std::uint64_t frames_per_chunk(std::uint64_t particles) {
   constexpr std::uint64_t most_at_once = std::uint64_t{1} << 19, in_chunk = std::uint64_t{1} << 14;
   if (particles >= h5::rows_per_chunk)

@@ -340,25 +340,25 @@ TEST_F(TrajectoryFile, ImagesGrowBeyond16Bits) {
     if (k >= 200) configuration.image[3] = {32'768, -40'000};
     return configuration;
   };
-  auto writer =
-      TrajectoryWriter::create(file("run.h5"), frame(0), some_provenance(), {.velocities = true});
-  const auto write_up_to = [&](std::uint64_t end) {
+  const auto write_up_to = [&](TrajectoryWriter& writer, std::uint64_t end) {
     for (std::uint64_t k = writer.frames(); k < end; ++k)
       writer.write(frame(k), static_cast<std::int64_t>(k));
   };
+  auto writer =
+      TrajectoryWriter::create(file("run.h5"), frame(0), some_provenance(), {.velocities = true});
   const auto bytes = [&] {
     writer.commit();
     const h5::File now = h5::File::open(file("run.h5"), h5::Access::read);
     return now.root().dataset("particles/all/image/value").bytes_per_number();
   };
-  write_up_to(200);
+  write_up_to(writer, 200);
   EXPECT_EQ(bytes(), 2u);
-  write_up_to(201);
+  write_up_to(writer, 201);
   EXPECT_EQ(bytes(), 4u);
   writer.close();
-  writer = TrajectoryWriter::append_to(file("run.h5"), 150);
-  write_up_to(300);
-  writer.close();
+  auto again = TrajectoryWriter::append_to(file("run.h5"), 150);
+  write_up_to(again, 300);
+  again.close();
   const TrajectoryReader reader(file("run.h5"));
   ASSERT_EQ(reader.frames(), 300u);
   for (std::uint64_t k = 0; k < 300; ++k) expect_same_bits(reader.read(k), frame(k));

@@ -175,7 +175,7 @@ class Conversion {
       images_.emplace();
     options.images = options.images || images_;
     options.overwrite = true;
-    writer_ = TrajectoryWriter::create(copy_, first, Provenance{}, options);
+    writer_.emplace(TrajectoryWriter::create(copy_, first, Provenance{}, options));
   }
 
   Texts read() const;
