@@ -14,66 +14,28 @@ namespace {
 
 static_assert(std::is_same_v<Id, hid_t>);
 
+/// HDF5's name of T in memory.
 template <class T>
-Id native_type();
-template <>
-Id native_type<double>() {
-  return H5T_NATIVE_DOUBLE;
-}
-template <>
-Id native_type<float>() {
-  return H5T_NATIVE_FLOAT;
-}
-template <>
-Id native_type<std::int16_t>() {
-  return H5T_NATIVE_INT16;
-}
-template <>
-Id native_type<std::int32_t>() {
-  return H5T_NATIVE_INT32;
-}
-template <>
-Id native_type<std::int64_t>() {
-  return H5T_NATIVE_INT64;
-}
-template <>
-Id native_type<std::uint64_t>() {
-  return H5T_NATIVE_UINT64;
-}
-template <>
-Id native_type<std::uint8_t>() {
-  return H5T_NATIVE_UINT8;
+Id native_type() {
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
+  if constexpr (std::is_same_v<T, std::int16_t>) return H5T_NATIVE_INT16;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_NATIVE_UINT64;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
 }
 
+/// HDF5's name of T in the file.
 template <class T>
-Id stored_type();
-template <>
-Id stored_type<double>() {
-  return H5T_IEEE_F64LE;
-}
-template <>
-Id stored_type<float>() {
-  return H5T_IEEE_F32LE;
-}
-template <>
-Id stored_type<std::int16_t>() {
-  return H5T_STD_I16LE;
-}
-template <>
-Id stored_type<std::int32_t>() {
-  return H5T_STD_I32LE;
-}
-template <>
-Id stored_type<std::int64_t>() {
-  return H5T_STD_I64LE;
-}
-template <>
-Id stored_type<std::uint64_t>() {
-  return H5T_STD_U64LE;
-}
-template <>
-Id stored_type<std::uint8_t>() {
-  return H5T_STD_U8LE;
+Id stored_type() {
+  if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
+  if constexpr (std::is_same_v<T, float>) return H5T_IEEE_F32LE;
+  if constexpr (std::is_same_v<T, std::int16_t>) return H5T_STD_I16LE;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_STD_I32LE;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_STD_I64LE;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_STD_U64LE;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_STD_U8LE;
 }
 
 /// What stands for numbers that were never written: HDF5 takes a chunk that it does not find, because its index is

@@ -109,7 +109,7 @@ class Dataset : public Object {
   void read_frames(std::uint64_t first, std::uint64_t count, std::span<T> values) const;
   /// How many frames of a series lie together; 1 of an array that is stored otherwise.
   std::uint64_t frames_per_chunk() const;
-  /// In the file.
+  /// The size of a number in the file.
   std::size_t bytes_per_number() const;
 
   /// The names of an enumerated type indexed by value 0, 1, 2 …; empty if the array holds plain
@@ -126,7 +126,8 @@ class Dataset : public Object {
   FrameSpaces frame_spaces(std::uint64_t first, std::uint64_t count, std::size_t values) const;
 };
 
-/// Of particles, in a chunk: who follows a few of them through all frames reads little in vain.
+/// A chunk holds no more particles than this, so that little is read in vain where a few are followed through
+/// all frames.
 inline constexpr std::uint64_t rows_per_chunk = 1024;
 
 class Group : public Object {
