@@ -12,18 +12,6 @@ namespace {
 
 constexpr double max_pairs_per_particle = 1 << 13;
 
-/// Counts in bins; what is farther is not counted.
-void count(std::vector<double>& bins, double distance, double width) {
-  const double at = distance / width;
-  if (at < static_cast<double>(bins.size())) ++bins[static_cast<std::size_t>(at)];
-}
-
-std::vector<double> middles(std::size_t bins, double width) {
-  std::vector<double> x;
-  for (std::size_t k = 0; k < bins; ++k) x.push_back((static_cast<double>(k) + 0.5) * width);
-  return x;
-}
-
 /// Every so many-th particle at an origin leaves no more pairs than allowed.
 template <int Dim>
 std::size_t start_stride(const Configuration<Dim>& frame, const std::vector<Lag>& lags,
@@ -40,12 +28,12 @@ std::size_t start_stride(const Configuration<Dim>& frame, const std::vector<Lag>
 
 template <int Dim>
 TwoTimeFunction<Dim> van_hove_self(const PairCorrelationOptions& options) {
-  const double width = options.distance_step;
-  const auto bins = static_cast<std::size_t>(options.distance_max / width * (1 + 1e-12));
-  return {middles(bins, width), [=](const TwoTimes<Dim>& pair) {
-            std::vector<double> row(bins);
-            for (const double distance : pair.distance) count(row, distance, width);
-            for (double& x : row) x /= width * static_cast<double>(pair.distance.size());
+  const DistanceBins bins(options.distance_max, options.distance_step);
+  return {bins.middles(), [bins](const TwoTimes<Dim>& pair) {
+            std::vector<double> row(bins.count() + 1);
+            for (const double distance : pair.distance) ++row[bins.bin(distance)];
+            row.pop_back();  // what is farther
+            for (double& x : row) x /= bins.step() * static_cast<double>(pair.distance.size());
             return row;
           }};
 }
@@ -54,7 +42,7 @@ template <int Dim>
 TwoTimeFunction<Dim> van_hove_distinct(const Configuration<Dim>& first,
                                        const std::vector<Lag>& lags,
                                        const PairCorrelationOptions& options) {
-  const DistanceBins<Dim> bins(first, options);
+  const DistanceBins bins(first, options);
   const std::size_t n = first.size(), stride = start_stride(first, lags, bins.range());
   const auto row_of = [=, box = first.box](const TwoTimes<Dim>& pair) {
     if (bins.count() == 0) return std::vector<double>();
@@ -65,9 +53,9 @@ TwoTimeFunction<Dim> van_hove_distinct(const Configuration<Dim>& first,
     for (std::size_t i = pair.origin % stride; i < n; i += stride, ++starts)
       cells.for_each_near((*pair.start)[i], bins.range(),
                           [&](std::size_t j, const Shift<Dim>&, const Vec<Dim>& separation) {
-                            if (j != i) ++found[bins.bin(separation.squaredNorm())];
+                            if (j != i) ++found[bins.bin(separation.norm())];
                           });
-    return bins.over_ideal_gas(starts * static_cast<double>(n - 1),
+    return bins.over_ideal_gas(starts * static_cast<double>(n - 1), box,
                                [&](std::size_t k) { return found[k]; });
   };
   return {bins.middles(), row_of};

@@ -26,8 +26,10 @@ TwoTimeFunction<Dim> van_hove_self(const PairCorrelationOptions& options);
 /// is for t → 0: 1 in an ideal gas at any t, and far out in a liquid up to O(1/N). r is that of nearest images, so it
 /// ends at half the shortest side of the box, that of `first` in all frames.
 ///
-/// Of the particles i at an origin every n-th is taken, others at the next origin, n as small as leaves no more than
-/// 2¹³ pairs per particle within reach over all lags and origins; found by cells, they cost about 0.1 ms per particle.
+/// Only every n-th particle i is taken at an origin, and others at the next one; n is the smallest number that
+/// leaves no more than 2¹³ pairs per particle within reach over all lags and origins. Pairs are found by cells,
+/// and cost about
+/// 0.1 ms per particle.
 template <int Dim>
 TwoTimeFunction<Dim> van_hove_distinct(const Configuration<Dim>& first,
                                        const std::vector<Lag>& lags,

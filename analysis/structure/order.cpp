@@ -12,7 +12,7 @@ namespace vitrel {
 
 namespace {
 
-/// Of pairs, each from one of so many origins: all up to 4096 particles, and so many pairs beyond some 30 000.
+/// Every particle is an origin up to 4096 of them; beyond some 30 000 the number of pairs is limited.
 constexpr std::size_t max_origins = 4096, max_pairs = std::size_t{1} << 27;
 constexpr double min_order_in_plane = 0.5, min_order_in_space = 0.4;  // of a nematic
 constexpr double well_above_chance = 3;  // in units of the order of as many rotors without any

@@ -197,8 +197,10 @@ struct Bin {
 template <int Dim>
 class SpeciesPairs {
  public:
-  SpeciesPairs(const Configuration<Dim>& configuration, const DistanceBins<Dim>& bins)
-      : bins_(bins), members_(std::max<std::size_t>(1, configuration.species_names.size())) {
+  SpeciesPairs(const Configuration<Dim>& configuration, const DistanceBins& bins)
+      : bins_(bins),
+        box_(configuration.box),
+        members_(std::max<std::size_t>(1, configuration.species_names.size())) {
     for (const std::int32_t species : configuration.species)
       ++members_[static_cast<std::size_t>(species)];
     if (std::ranges::count_if(members_, [](double count) { return count > 0; }) > 1)
@@ -223,11 +225,13 @@ class SpeciesPairs {
   std::vector<double> of_pair(std::size_t a, std::size_t b) {
     const double pairs = a == b ? 0.5 * members_[a] * (members_[a] - 1) : members_[a] * members_[b];
     if (pairs == 0) return {};
-    return bins_.over_ideal_gas(
-        pairs, [&](std::size_t bin) { return found(a, b, bin) + (a == b ? 0 : found(b, a, bin)); });
+    return bins_.over_ideal_gas(pairs, box_, [&](std::size_t bin) {
+      return found(a, b, bin) + (a == b ? 0 : found(b, a, bin));
+    });
   }
 
-  const DistanceBins<Dim>& bins_;
+  const DistanceBins& bins_;
+  const PeriodicBox<Dim>& box_;
   std::vector<double> members_, found_;  // particles of every species, and pairs
 };
 
@@ -267,14 +271,14 @@ std::size_t axis_angle_bin(const Edges& edges, double along, double squared_dist
 template <int Dim>
 PairCorrelation pair_correlation(const Configuration<Dim>& configuration,
                                  const PairCorrelationOptions& options) {
-  const DistanceBins<Dim> distances(configuration, options);
+  const DistanceBins distances(configuration, options);
   if (distances.count() == 0) return {};
   std::vector<Bin> bins(distances.count() + 1);
   SpeciesPairs<Dim> species(configuration, distances);
   SortedPoints<Dim>(configuration, distances.range(), 8)
       .for_each_pair([&, is_mixture = species.is_mixture()](
                          const Point<Dim>& p, const Point<Dim>& q, const Vec<Dim>& separation) {
-        const std::size_t at = distances.bin(separation.squaredNorm());
+        const std::size_t at = distances.bin(separation.norm());
         bins[at].add(p, q);
         if (is_mixture) ++species.found(p.species, q.species, at);
       });
@@ -282,8 +286,8 @@ PairCorrelation pair_correlation(const Configuration<Dim>& configuration,
   const double n = static_cast<double>(configuration.size());
   PairCorrelation result;
   result.distance = distances.middles();
-  result.g =
-      distances.over_ideal_gas(0.5 * n * (n - 1), [&](std::size_t k) { return bins[k].pairs; });
+  result.g = distances.over_ideal_gas(0.5 * n * (n - 1), configuration.box,
+                                      [&](std::size_t k) { return bins[k].pairs; });
   result.partial = species.partial();
   for (std::size_t k = 0; k < distances.count(); ++k) {
     result.g_2.push_back(bins[k].g_2(Dim));
@@ -298,8 +302,8 @@ PairCorrelationByAngle pair_correlation_by_angle(const Configuration<Dim>& confi
                                                  const PairCorrelationOptions& options) {
   constexpr std::size_t angles = axis_angle_bins<Dim>;
   const double range = axis_angle_range * 2 * largest_circumradius(configuration);
-  const DistanceBins<Dim> distances(configuration,
-                                    {std::min(options.distance_max, range), options.distance_step});
+  const DistanceBins distances(configuration,
+                               {std::min(options.distance_max, range), options.distance_step});
   const auto rotors = static_cast<double>(rotor_count(configuration));
   if (distances.count() == 0 || rotors == 0) return {};
   std::vector<double> found((distances.count() + 1) * angles);
@@ -307,7 +311,7 @@ PairCorrelationByAngle pair_correlation_by_angle(const Configuration<Dim>& confi
       .for_each_pair([&, edges = axis_angle_edges<Dim>()](const Point<Dim>& p, const Point<Dim>& q,
                                                           const Vec<Dim>& separation) {
         const double squared = separation.squaredNorm();
-        double* const at = found.data() + distances.bin(squared) * angles;
+        double* const at = found.data() + distances.bin(std::sqrt(squared)) * angles;
         for (const Point<Dim>* first : {&p, &q})
           at[axis_angle_bin(edges, along_axis(*first, separation), squared)] += first->rotor;
       });
@@ -316,8 +320,8 @@ PairCorrelationByAngle pair_correlation_by_angle(const Configuration<Dim>& confi
   PairCorrelationByAngle result;
   result.distance = distances.middles();
   for (std::size_t angle = 0; angle < angles; ++angle)
-    result.g.push_back(
-        distances.over_ideal_gas(pairs, [&](std::size_t k) { return found[k * angles + angle]; }));
+    result.g.push_back(distances.over_ideal_gas(
+        pairs, configuration.box, [&](std::size_t k) { return found[k * angles + angle]; }));
   return result;
 }
 
