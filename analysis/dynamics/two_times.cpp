@@ -43,11 +43,12 @@ std::vector<TwoTimeAverages> average_two_times(Trajectory<Dim>& trajectory,
     const double done = static_cast<double>(from + 1);
     if (report) report({done / static_cast<double>(trajectory.frames()), done, "frames"});
   }
+  const bool is_even = evenly_spaced(trajectory.times());
   std::vector<TwoTimeAverages> averages;
   for (std::size_t f = 0; f < functions.size(); ++f) {
     averages.push_back({functions[f].x, {}});
     for (const std::vector<FrameAverage>& lag : sums)
-      averages.back().at_lag.push_back(lag[f].averages(evenly_spaced(trajectory.times())));
+      averages.back().at_lag.push_back(lag[f].averages(is_even));
   }
   return averages;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <ranges>
 
 #include "analysis/observables/dynamics_tables.h"
@@ -51,22 +52,23 @@ const Observable* find(const std::vector<Observable>& all, std::string_view tabl
 }
 
 TableChoice::TableChoice(std::string_view names) {
+  if (names.empty()) return;
+  std::vector<std::string> known;
+  std::map<std::string, std::string> table_of;
+  for (const int dimension : {2, 3})
+    for (const Observable& observable : observables(dimension)) {
+      table_of[observable.table] = observable.table;
+      for (const std::string& name : observable.also) table_of[name] = observable.table;
+    }
+  for (const auto& [name, table] : table_of) known.push_back(name);
   for (const auto part : std::views::split(names, ',')) {
     std::string name(part.begin(), part.end());
     std::erase(name, ' ');
-    std::vector<std::string> known;
-    for (const int dimension : {2, 3})
-      for (const Observable& observable : observables(dimension)) {
-        known.push_back(observable.table);
-        known.insert(known.end(), observable.also.begin(), observable.also.end());
-        if (observable.table == name ||
-            std::ranges::find(observable.also, name) != observable.also.end())
-          tables_.push_back(observable.table);
-      }
-    if (std::ranges::find(known, name) == known.end())
+    if (!table_of.contains(name))
       throw UserError(
           fmt::format("names the table \"{}\", which `vitrel analyze --list` does not have{}", name,
                       suggestion(name, known)));
+    tables_.push_back(table_of.at(name));
   }
 }
 

@@ -259,7 +259,8 @@ void describe_run(RunAnalysis& run, TrajectoryFile<Dim>& trajectory) {
 
 template <int Dim>
 RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
-                    const Parameters& parameters, const AnalysisProgress& progress) {
+                    const Parameters& parameters, const TableChoice& wanted,
+                    const AnalysisProgress& progress) {
   const TrajectoryReader& reader = trajectory.reader();
   const std::vector<double>& times = trajectory.times();
   RunAnalysis run{};
@@ -271,7 +272,6 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
         "between any two frames some particle moved by more than a quarter of a box length, so "
         "that "
         "its box crossings are in doubt";
-  const TableChoice wanted(parameters.only);
   if (run.obstacle.empty() && wants_motion(wanted))
     run.dynamics = measure_dynamics(trajectory, parameters.analysis, wanted, progress);
   if (run.obstacle.empty()) run.motion = measure_motion(trajectory, parameters, wanted, progress);
@@ -416,10 +416,10 @@ AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
     throw UserError(file.string() + ": has no frames yet; continue the run");
   require_own_names(reader);
   require_orders_of_directors(reader, parameters.analysis);
-  const RunAnalysis run =
-      naming(file, [&] { return measure(trajectory, analysed.name(), parameters, progress); });
-  Results& results = analysed.results = results_of(run);
   const TableChoice wanted(parameters.only);
+  const RunAnalysis run = naming(
+      file, [&] { return measure(trajectory, analysed.name(), parameters, wanted, progress); });
+  Results& results = analysed.results = results_of(run);
   append(results.tables, on_the_fly_tables(file));
   results.provenance = provenance_rows(reader.provenance());
   results.provenance.emplace_back("source", file.string());
