@@ -90,17 +90,23 @@ TEST(StatePage, WhatIsUnknownIsNotThere) {
   EXPECT_TRUE(data["tables"].empty());
 }
 
+/// The tables of the page of the state that these parameters prepare.
+nlohmann::json tables_of_page(const std::string& name, const std::string& parameters) {
+  const testing_program::Folder folder(name);
+  folder.write("p.toml", parameters);
+  EXPECT_EQ(testing_program::run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "-q"}).code, 0);
+  EXPECT_EQ(testing_program::run(folder.path(), {"report", "s.h5", "-q"}).code, 0);
+  return embedded_data(folder.read("s.html"))["tables"];
+}
+
 TEST(StatePage, OfAFileHasItsStructure) {
-  const testing_program::Folder folder("state_structure");
   // A square lattice of 100 disks in a box of side 10 s, s² = π/φ.
-  folder.write("p.toml",
-               "[system]\nparticles = 100\npacking_fraction = 0.5\n"
-               "[[species]]\nname = \"A\"\naspect_ratio = 1.0\n"
-               "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\nmethod = "
-               "\"lattice\"\narrangement = \"square\"\n");
-  ASSERT_EQ(testing_program::run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "-q"}).code, 0);
-  ASSERT_EQ(testing_program::run(folder.path(), {"report", "s.h5", "-q"}).code, 0);
-  const nlohmann::json tables = embedded_data(folder.read("s.html"))["tables"];
+  const nlohmann::json tables =
+      tables_of_page("state_structure",
+                     "[system]\nparticles = 100\npacking_fraction = 0.5\n"
+                     "[[species]]\nname = \"A\"\naspect_ratio = 1.0\n"
+                     "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\nmethod = "
+                     "\"lattice\"\narrangement = \"square\"\n");
   const nlohmann::json& g = tables["pair_correlation"]["columns"];
   std::size_t first = 0;
   while (g["g"]["value"][first] == 0) ++first;
@@ -115,15 +121,12 @@ TEST(StatePage, OfAFileHasItsStructure) {
 
 // g_2 and g_4 of a single state are noise; pairs of species are not.
 TEST(StatePage, OfAMixtureHasThePairsOfSpecies) {
-  const testing_program::Folder folder("state_mixture");
-  folder.write("p.toml",
-               "[system]\nparticles = 60\npacking_fraction = 0.3\n"
-               "[[species]]\nname = \"A\"\nfraction = 0.5\naspect_ratio = 2.0\n"
-               "[[species]]\nname = \"B\"\nfraction = 0.5\naspect_ratio = 1.5\n"
-               "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\nmethod = \"insert\"\n");
-  ASSERT_EQ(testing_program::run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "-q"}).code, 0);
-  ASSERT_EQ(testing_program::run(folder.path(), {"report", "s.h5", "-q"}).code, 0);
-  const nlohmann::json tables = embedded_data(folder.read("s.html"))["tables"];
+  const nlohmann::json tables =
+      tables_of_page("state_mixture",
+                     "[system]\nparticles = 60\npacking_fraction = 0.3\n"
+                     "[[species]]\nname = \"A\"\nfraction = 0.5\naspect_ratio = 2.0\n"
+                     "[[species]]\nname = \"B\"\nfraction = 0.5\naspect_ratio = 1.5\n"
+                     "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\nmethod = \"insert\"\n");
   std::vector<std::string> names;
   for (const auto& [name, column] : tables["pair_correlation"]["columns"].items())
     names.push_back(name);
