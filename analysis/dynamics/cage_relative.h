@@ -31,12 +31,10 @@ struct CageRelative {
 /// the size of the system, and relaxation looks faster than that of the cages; these do not (vivek2017,
 /// illing2017). Independent particles have ⟨|Δr_c|²⟩ = ⟨|Δr|²⟩ (1 + ⟨1/n⟩).
 ///
-/// Lags are those of displacements; of their origins at most 256 per lag are used, of more than 8192 particles fewer,
-/// down to
-/// 64. All positions and the
-/// neighbours at the origins are kept: about (16 F + 30 F₀) N bytes for F frames, F₀ of which are origins.
-/// None if that exceeds `options.memory`. Threads share the lags, and the result does not depend on their
-/// number. Throws UserError for fewer than two frames.
+/// Lags are those of displacements, with 256 origins at most; with more than 8192 particles there are fewer,
+/// down to 64. All positions and the neighbours at the origins are kept: about (16 F + 30 F₀) N bytes for F
+/// frames, F₀ of which are origins. The result is none if that exceeds `options.memory`. Threads share the
+/// lags, and the result does not depend on their number. Throws UserError for fewer than two frames.
 std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
                                           const DisplacementOptions& options = {},
                                           const ProgressReport& report = {});

@@ -107,8 +107,8 @@ class MomentSum {
   /// correlation counts. The bias from the ratio is that of a sample, −1/n of n independent
   /// displacements; the error is 1/√n. NaN where nothing moves.
   PointEstimate non_gaussian(double c, const Lag& lag, std::size_t particles) const;
-  /// ⟨y⟩/⟨x⟩ of a decaying y and any x > 0, added as squares x and fourth powers y. The error is that of the linearised
-  /// ratio (y − x ⟨y⟩/⟨x⟩)/⟨x⟩, as estimate_of_decay has it. NaN if all x are 0.
+  /// ⟨y⟩/⟨x⟩ of a decaying y and any x > 0, added as squares x and fourth powers y. The error is that of the
+  /// linearised ratio (y − x ⟨y⟩/⟨x⟩)/⟨x⟩, as estimate_of_decay has it. NaN if all x are 0.
   PointEstimate ratio(const Lag& lag, std::size_t particles) const;
 
   CorrelationSum square, quartic;

@@ -40,7 +40,7 @@ class Powers {
   std::vector<double> real_, imaginary_;
 };
 
-/// Of the particles of a block.
+/// The sum over the particles of a block.
 template <std::size_t Dim>
 std::complex<double> sum(const std::vector<Powers>& powers, const std::array<int, Dim>& n,
                          std::size_t count) {

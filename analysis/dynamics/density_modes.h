@@ -14,8 +14,8 @@ namespace vitrel {
 template <int Dim>
 Vec<Dim> reciprocal_lengths(const PeriodicBox<Dim>& box);
 
-/// ρ_q = Σ_j exp(i q·r_j) for wave vectors q = 2π (n_x/L_x, n_y/L_y …), from powers of exp(2πi x/L) by multiplication:
-/// error below 1e-13 N. Cost about 2 ns per position and wave vector.
+/// ρ_q = Σ_j exp(i q·r_j) for wave vectors q = 2π (n_x/L_x, n_y/L_y …), from powers of exp(2πi x/L) by
+/// multiplication: error below 1e-13 N. Cost about 2 ns per position and wave vector.
 template <int Dim>
 class DensityModes {
  public:

@@ -170,7 +170,7 @@ DisplacementGroup evaluate(const Members<Dim>& members, const std::vector<Lag>& 
   return group;
 }
 
-/// Of the frames begin … end − 1 of an evenly sampled run.
+/// The curves of the frames begin … end − 1 alone, for an evenly sampled run.
 template <int Dim>
 HalfOfRun evaluate_half(const Members<Dim>& all, const std::vector<Lag>& lags, double longest_lag,
                         std::size_t begin, std::size_t end) {

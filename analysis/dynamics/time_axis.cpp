@@ -14,7 +14,7 @@ constexpr std::size_t max_pairs = std::size_t{1} << 22;
 constexpr double single_precision = 0x1p-24;
 /// The most that time differences taken as equal may differ by, relative.
 constexpr double widest = 1e-3;
-/// Of functions of more than the time difference.
+/// The number of time differences for functions that depend on more than these.
 constexpr std::size_t few_lags = 10;
 
 std::size_t stride_to(std::size_t most, std::size_t available) {

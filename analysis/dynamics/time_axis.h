@@ -71,7 +71,7 @@ std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions&
 /// together these were more than 2²¹ particles.
 std::size_t origins_for(std::size_t particles, std::size_t most);
 
-/// Of an evenly sampled run every so many frames one is an origin.
+/// The number of frames from one origin to the next in an evenly sampled run.
 std::size_t even_stride(std::size_t frames, const TimeAxisOptions& options);
 
 /// The same after time difference 0, of which all frames are origins, evenly thinned to `max_origins`.
@@ -84,7 +84,7 @@ template <int Dim>
 std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
                                      const TimeAxisOptions& options = {});
 
-/// At most, of few_lags_of_motion.
+/// The most origins that few_lags_of_motion takes.
 inline constexpr std::size_t few_origins = 128;
 
 /// Ten of those lags, or fewer, about equally far apart on a logarithmic scale, the shortest and the longest among

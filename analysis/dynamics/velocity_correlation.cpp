@@ -61,7 +61,7 @@ void add(MomentSum& sum, std::span<const FrameSeries> velocity, const Lag& lag,
   sum.finish_particle(its_class);
 }
 
-/// Of v and ω at every lag.
+/// The sums for v and for ω, one entry per lag.
 struct VelocitySums {
   std::vector<MomentSum> translation, rotation;
 };

@@ -11,7 +11,7 @@
 /// Autocorrelation of velocities, and its spectrum.
 namespace vitrel {
 
-/// Of velocities v, or of angular velocities ω in the place of v.
+/// What is known of the velocities v, or of the angular velocities ω in their place.
 struct VelocityCorrelation {
   double mean_square = 0;   ///< ⟨v²⟩ at the origins of t = 0
   Correlation correlation;  ///< C(t) at every lag
@@ -48,8 +48,8 @@ struct VelocityCorrelations {
 ///    height, and what velocities do faster than Δ is folded into ω ≤ π/Δ.
 /// 4. The error of g is that of the same sum at every origin that has all M lags, linearised as in 2.
 ///
-/// The file is read once for v and once for ω, or several times for a few particles each if their 8 Dim bytes per
-/// particle and frame exceed `options.memory`. The result depends neither on it nor on the number of threads, which
+/// The file is read once, or several times for a few particles each if their components, 8 bytes each per frame, exceed
+/// `options.memory`. The result depends neither on it nor on the number of threads, which
 /// share the lags. Cost about (lags) × (origins) × N × 5 ns for both.
 template <int Dim>
 VelocityCorrelations velocity_correlations(Trajectory<Dim>& trajectory,

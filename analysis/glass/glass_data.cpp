@@ -10,7 +10,7 @@ namespace {
 
 constexpr double nematic_order_of_l = 2;  // the n of L_n that is judged
 
-/// Of the orders of the first axis; none if it was not measured.
+/// Where L_2 of the first axis is among the orders; none if it was not measured.
 std::optional<std::size_t> index_of_l_2(const Displacements& found) {
   const auto order = std::find(found.orders.begin(), found.orders.end(), nematic_order_of_l);
   const auto index = static_cast<std::size_t>(order - found.orders.begin());
