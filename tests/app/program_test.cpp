@@ -18,6 +18,7 @@
 #include "core/io/h5md.h"
 #include "tests/app/program.h"
 #include "tests/support/partial_files.h"
+#include "workflow/sweep/folder_lock.h"
 
 namespace vitrel {
 namespace {
@@ -732,29 +733,35 @@ TEST(Program, AJobOfASweepIsWorkedOffAlone) {
                  "no job of the sweep has the name 'seed-4'; its jobs: seed-1, seed-2, seed-3");
 }
 
-// Two processes given the same job at once: one works, the other waits and finds the job done. One that is
-// given the whole sweep meanwhile is refused.
+// Two processes given the same job wait for who holds its folder. Then one works, and the other finds the job
+// done. One that is given the whole sweep meanwhile is refused.
 TEST(Program, AJobIsWorkedOffOnceHoweverManyProcessesGetIt) {
   const Folder folder("same_job");
   folder.write("p.toml", three_seeds);
+  std::filesystem::create_directories(folder / "sweep/seed-1");
   const auto start = [&](const std::string& own_folder, std::vector<std::string> more) {
     std::filesystem::create_directory(folder / own_folder);
-    std::vector<std::string> words = {"sweep",    "../p.toml", "-o",
-                                      "../sweep", "--set",     "dynamics.duration=1000"};
+    std::vector<std::string> words = {"sweep", "../p.toml", "-o", "../sweep"};
     words.insert(words.end(), more.begin(), more.end());
     return std::async(std::launch::async,
                       [&folder, own_folder, words] { return run(folder / own_folder, words); });
   };
-  auto first = start("a", {"--job", "seed-1"});
-  while (!std::filesystem::exists(folder / "sweep/seed-1/state.h5"))
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  auto second = start("b", {"--job", "seed-1"}), sweep = start("c", {"-q"});
-  expect_refusal(sweep.get(), 2, "another process works on this sweep");
-  const Outcome worked = first.get(), waited = second.get();
-  EXPECT_EQ(worked.code, 0) << worked.errors;
-  EXPECT_EQ(waited.code, 0);
-  EXPECT_THAT(waited.errors, AllOf(HasSubstr("waiting for another process"),
-                                   HasSubstr("1 of 1 jobs are done already")));
+  auto held = std::make_optional<FolderLock>(folder / "sweep/seed-1");
+  held->hold_alone();
+  auto first = start("a", {"--job", "seed-1"}), second = start("b", {"--job", "seed-1"});
+  for (const char* errors : {"a/standard_error", "b/standard_error"})
+    while (folder.read(errors).find("waiting for another process") == std::string::npos)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  expect_refusal(start("c", {"-q"}).get(), 2, "another process works on this sweep");
+  held.reset();
+  int worked = 0, found_done = 0;
+  for (const Outcome& outcome : {first.get(), second.get()}) {
+    EXPECT_EQ(outcome.code, 0) << outcome.errors;
+    const bool found = outcome.errors.find("1 of 1 jobs are done already") != std::string::npos;
+    ++(found ? found_done : worked);
+  }
+  EXPECT_EQ(worked, 1);
+  EXPECT_EQ(found_done, 1);
 }
 
 // A kill may fall between the last act of a preparation and the summary that says it is done.
