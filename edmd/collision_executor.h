@@ -43,7 +43,7 @@ class CollisionExecutor {
   void collide_pair(Index i, const Event<B>& event, RunCounters& counters) {
     const Index j = event.partner.other;
     const double since = state_.now - std::max(state_.last_change(i), state_.last_change(j));
-    const Vector d = meet(i, event);
+    const Vector d = meet(i, event, counters);
     const Vector normal = event.normal_along(d);
     const double speed = collide(i, j, d, normal, counters);
     if (collapses_) collapse_.detect(i, j, speed * since);
@@ -53,10 +53,14 @@ class CollisionExecutor {
   /// The correction move for an overlapping pair.
   void correct_overlap(Index i, const Event<B>& event, RunCounters& counters) {
     const Index j = event.partner.other;
-    const Vector d = meet(i, event);
+    const Vector d = meet(i, event, counters);
     Motion<dimension> motion1 = state_.particles[i].motion(),
                       motion2 = state_.particles[j].motion();
+    const Vector before = motion1.velocity - motion2.velocity;
+    const Vector velocity1 = motion1.velocity;
     separate(motion1, state_.type(i).inertia, motion2, state_.type(j).inertia, d);
+    const Vector momentum = (velocity1 - motion1.velocity) / state_.type(i).inertia.inverse_mass;
+    record_transfer(momentum, d, before, motion1, motion2, counters);
     state_.set_motion(i, motion1);
     state_.set_motion(j, motion2);
     ++counters.correction_moves;
@@ -78,6 +82,7 @@ class CollisionExecutor {
                 RunCounters& counters) {
     Motion<dimension> motion1 = state_.particles[i].motion(),
                       motion2 = state_.particles[j].motion();
+    const Vector before = motion1.velocity - motion2.velocity;
     const Impact result = i == j || !State::is_round
                               ? collide_shaped(i, j, motion1, motion2, n, restitution)
                               : collide_round(i, j, motion1, motion2, n, restitution);
@@ -87,6 +92,7 @@ class CollisionExecutor {
     ++state_.collisions;
     ++counters.collisions;
     counters.virial += result.impulse * dot(n, d);
+    record_transfer(result.impulse * n, d, before, motion1, motion2, counters);
     const double lost = 0.5 * result.impulse * result.speed * (1 - restitution);
     if (restitution > 1)
       counters.added -= lost;
@@ -112,6 +118,14 @@ class CollisionExecutor {
     else
       impact(i, j, d, n, restitution, counters);
     return speed;
+  }
+
+  /// From the first to the second particle, with their relative velocity before it.
+  void record_transfer(const Vector& momentum, const Vector& d, const Vector& before,
+                       const Motion<dimension>& motion1, const Motion<dimension>& motion2,
+                       RunCounters& counters) {
+    const Vector mean = 0.5 * (before + motion1.velocity - motion2.velocity);
+    state_.flux.transfer(momentum, d, mean, counters.helfand_moment);
   }
 
   bool cannot_come_apart(const ContactLaw& law, Index i, Index j, double speed) const {
@@ -156,6 +170,7 @@ class CollisionExecutor {
   void rub(Index i, Index j, const Vector& d, const Vector& n, const ContactLaw& law,
            double restitution, RunCounters& counters) {
     Motion<dimension> motion1 = state_.full_motion(i), motion2 = state_.full_motion(j);
+    const Vector before = motion1.velocity - motion2.velocity;
     const RoughContact<dimension> contact{n, surface_from(i, n), surface_from(j, -n)};
     const RoughImpact<dimension> result =
         collide_rough(motion1, state_.full_inertia_now(i), motion2, state_.full_inertia_now(j),
@@ -165,6 +180,7 @@ class CollisionExecutor {
     ++state_.collisions;
     ++counters.collisions;
     counters.virial -= dot(result.impulse, d);
+    record_transfer(-result.impulse, d, before, motion1, motion2, counters);
     counters.dissipated += result.dissipated;
   }
 
@@ -182,7 +198,8 @@ class CollisionExecutor {
   }
 
   // Brings both to the present. Returns their separation.
-  Vector meet(Index i, const Event<B>& event) {
+  Vector meet(Index i, const Event<B>& event, RunCounters& counters) {
+    state_.flux.advance(state_.now, counters.helfand_moment);
     state_.advance_to_now(i);
     state_.advance_to_now(event.partner.other);
     return state_.separation(i, event.partner);

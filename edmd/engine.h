@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/state/configuration.h"
+#include "core/state/observer.h"
 #include "edmd/options.h"
 
 namespace vitrel {
@@ -28,9 +29,10 @@ struct RunCounters {
   /// Σ J n·d over collisions, d from centre to centre; for soft contacts the equivalent term
   /// (soft/soft_contact.h).
   double virial = 0;
-  double dissipated = 0;            ///< energy lost in inelastic collisions
-  std::uint64_t short_flights = 0;  ///< collisions that the contact-time model made elastic
-  double spared = 0;                ///< energy of the normal motion that they would have lost
+  ShearElements helfand_moment = {};  ///< momentum_flux.h; not of soft particles
+  double dissipated = 0;              ///< energy lost in inelastic collisions
+  std::uint64_t short_flights = 0;    ///< collisions that the contact-time model made elastic
+  double spared = 0;                  ///< energy of the normal motion that they would have lost
   double added = 0;     ///< energy that these gave to surfaces that would have stayed together
   double supplied = 0;  ///< energy gained by kicks (driving.h)
 

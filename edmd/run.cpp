@@ -104,7 +104,8 @@ class EventDrivenRun {
   void observe(Observer<Dim>* observer, std::uint64_t& number, double time) {
     engine_->write(state_.configuration);
     state_.configuration.time = time;
-    const Tally tally{state_.counters.collisions, state_.counters.virial};
+    const Tally tally{state_.counters.collisions, state_.counters.virial,
+                      state_.counters.helfand_moment};
     const Frame<Dim> frame{static_cast<std::int64_t>(number), state_.configuration, tally};
     if (observer) timed_output([&] { observer->observe(frame); });
     ++number;

@@ -123,6 +123,7 @@ typename Simulation<B>::Stop Simulation<B>::advance(double until, RunCounters& c
     const double time = calendar_.time(i);
     if (time > end) {
       state_.now = std::max(state_.now, end);
+      state_.flux.advance(state_.now, counters.helfand_moment);
       return Stop::time;
     }
     state_.now = time;
@@ -131,6 +132,7 @@ typename Simulation<B>::Stop Simulation<B>::advance(double until, RunCounters& c
     if (prefetcher_.is_useful()) prefetcher_.advance();
     process(i, counters);
   }
+  state_.flux.advance(state_.now, counters.helfand_moment);
   return Stop::block_end;
 }
 

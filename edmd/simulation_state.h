@@ -13,6 +13,7 @@
 #include "core/neighbors/neighborhood.h"
 #include "core/state/configuration.h"
 #include "edmd/collision_rule.h"
+#include "edmd/momentum_flux.h"
 #include "edmd/options.h"
 
 namespace vitrel {
@@ -61,6 +62,7 @@ struct SimulationState {
   double collisions = 0;  // since then
   double extent = 0;      // magnitude of the coordinates
   double contact_gap = 0;
+  MomentumFlux<dimension> flux;
   double fastest = 0;              // speed of a surface, at the start of the block
   std::vector<Index> external_id;  // particle numbers of the configuration
   std::vector<std::int32_t> species;
@@ -181,6 +183,7 @@ struct SimulationState {
  private:
   void load_particles(const Configuration<dimension>& configuration);
   void load_types(const Configuration<dimension>& configuration);
+  void begin_flux();
   void find_neighbors(NeighborSearch method, double target);
   Rotation rotation_now(Index i) const;
   Vector with_scaled_spin(Index i, const Vector& angular_velocity, bool to_true) const
@@ -195,6 +198,7 @@ double SimulationState<B>::reset_clocks() {
   const double elapsed = now;
   base += elapsed;
   now = collisions = 0;
+  flux.reset_clock(elapsed);
   for (Rotation& rotation : rotations) rotation.time -= elapsed;
   for (Tumbling& body : tumbling) body.since -= elapsed;
   for (Particle& particle : particles) {

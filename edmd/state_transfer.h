@@ -81,6 +81,7 @@ void SimulationState<B>::load(const Configuration<dimension>& configuration, Nei
     fastest = std::max(fastest, norm(particle.velocity) +
                                     max_support_rate * norm(fastest_motion(i).angular_velocity));
   }
+  begin_flux();
   contact_gap = tolerance::contact_gap(extent);
   find_neighbors(method, target_neighbors);
 }
@@ -177,6 +178,14 @@ void SimulationState<B>::set_velocities(const Configuration<dimension>& configur
     set_motion(i, motion);
     fastest = std::max(fastest, norm(motion.velocity));
   }
+  begin_flux();
+}
+
+template <Body B>
+void SimulationState<B>::begin_flux() {
+  flux.begin(now);
+  for (Index i = 0; i < size(); ++i)
+    flux.add_particle(1 / type(i).inertia.inverse_mass, particles[i].velocity);
 }
 
 // Of a sphere.

@@ -1,15 +1,24 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/state/configuration.h"
 
 namespace vitrel {
 
+/// The elements xy, xz and yz of a symmetric tensor; in the plane only the first.
+using ShearElements = std::array<double, 3>;
+template <int Dim>
+inline constexpr std::size_t shear_elements = Dim == 2 ? 1 : 3;
+inline constexpr std::array shear_element_names = {"xy", "xz", "yz"};
+
 /// Totals of a run at the time of a frame.
 struct Tally {
   std::uint64_t collisions = 0;
-  double virial = 0;  ///< Σ J n·d over all collisions, d from centre to centre
+  double virial = 0;                  ///< Σ J n·d over all collisions, d from centre to centre
+  ShearElements helfand_moment = {};  ///< edmd/momentum_flux.h; not of soft particles
 };
 
 /// A synchronised, read-only view of the system at one sample time.

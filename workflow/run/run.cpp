@@ -103,6 +103,13 @@ class RunJob {
     return true;
   }
 
+  /// Whether the dynamics conserve momentum and energy at every moment.
+  bool is_conservative() const {
+    const DynamicsParameters& dynamics = request_.parameters.dynamics;
+    return dynamics.kind == DynamicsParameters::Kind::newtonian && !dynamics.driving &&
+           !is_soft() && !is_dissipative(dynamics);
+  }
+
   void make_correlator() {
     correlator_ = correlator(request_.parameters, stored_.state.configuration);
     if (correlator_ && !stored_.correlations.empty()) correlator_->restore(stored_.correlations);
@@ -130,7 +137,7 @@ class RunJob {
                                      .single_precision = request_.parameters.output.precision ==
                                                          OutputParameters::Precision::single,
                                      .expected_frames = sample_times(request_.parameters).size(),
-                                     .observables = run_observables,
+                                     .observables = run_observables(Dim, is_conservative()),
                                      .overwrite = true});
   }
 
@@ -141,7 +148,9 @@ class RunJob {
     log_line(log_, (is_soft() ? "run of soft " : "run of ") +
                        make_engine(state.configuration, options.engine)->description());
     TrajectoryWriter writer = open_trajectory();
-    TrajectoryObserver<Dim> file(writer, measure_run<Dim>);
+    const std::vector<std::string> observables = writer.observable_names();
+    TrajectoryObserver<Dim> file(
+        writer, [&](const Frame<Dim>& frame) { return measure_run(frame, observables); });
     Observers<Dim> observers(file, observer_);
     make_correlator();
     if (is_longer_) begin_longer(writer);

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "core/state/observer.h"
+
 /// @file
 /// The items that runs and stages have in common in their checkpoints. `visit` is an ItemWriter or an
 /// ItemReader (checkpoint_items.h), and every name begins with `path`.
@@ -25,6 +27,9 @@ void each_item_of_counters(Counters& counters, const std::string& path, Visit&& 
   visit.if_recorded(path + "spared", counters.spared);
   visit.if_recorded(path + "added", counters.added);
   visit.if_recorded(path + "supplied", counters.supplied);
+  for (std::size_t k = 0; k < counters.helfand_moment.size(); ++k)
+    visit.if_recorded(path + "helfand_moment_" + shear_element_names[k],
+                      counters.helfand_moment[k]);
 }
 
 template <class Growth, class Visit>

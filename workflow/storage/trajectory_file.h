@@ -15,10 +15,11 @@
 namespace vitrel {
 
 /// The observables that `run` stores with every frame: totals over all particles, and totals since
-/// the start of the run.
-extern const std::vector<std::string> run_observables;
+/// the start of the run; Helfand moments only if momentum and energy are conserved.
+std::vector<std::string> run_observables(int dimension, bool is_conservative);
+/// Those of these names.
 template <int Dim>
-Observables measure_run(const Frame<Dim>& frame);
+Observables measure_run(const Frame<Dim>& frame, const std::vector<std::string>& names);
 
 /// A trajectory file of this dimension as the analysis takes it.
 template <int Dim>
@@ -57,5 +58,8 @@ EnergySeries observed_energies(const TrajectoryReader& reader);
 /// Without values if there is no energy, or the file has no virial.
 CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
                                              const EnergySeries& energy, std::size_t rotations);
+
+/// The Helfand moments of every frame, element by element; empty if the file has none.
+std::vector<std::vector<double>> helfand_moments(const TrajectoryReader& reader);
 
 }  // namespace vitrel
