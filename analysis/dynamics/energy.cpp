@@ -32,6 +32,14 @@ Estimate time_average(const std::vector<double>& time, const std::vector<double>
   return estimate;
 }
 
+double mean_temperature(const EnergySeries& energy, std::size_t particles, std::size_t rotations,
+                        int dimension) {
+  const double n = static_cast<double>(particles);
+  const double mean_energy = n * std::accumulate(energy.total.begin(), energy.total.end(), 0.0) /
+                             static_cast<double>(energy.total.size());
+  return 2 * mean_energy / (dimension * (n - 1) + static_cast<double>(rotations));
+}
+
 CompressibilitySeries compressibility(const EnergySeries& energy, const std::vector<double>& virial,
                                       std::size_t particles, std::size_t rotations, int dimension) {
   assert(virial.size() == energy.time.size());
@@ -39,10 +47,7 @@ CompressibilitySeries compressibility(const EnergySeries& energy, const std::vec
   if (frames < 2 || particles < 2) return {{}, {}, {unknown, unknown, 0}};
 
   const double n = static_cast<double>(particles);
-  const double mean_energy = n * std::accumulate(energy.total.begin(), energy.total.end(), 0.0) /
-                             static_cast<double>(frames);
-  const double temperature =
-      2 * mean_energy / (dimension * (n - 1) + static_cast<double>(rotations));
+  const double temperature = mean_temperature(energy, particles, rotations, dimension);
   const auto between = [&](std::size_t from, std::size_t to) {
     const double time = energy.time[to] - energy.time[from];
     return 1 + (virial[to] - virial[from]) / (dimension * n * temperature * time);

@@ -28,6 +28,10 @@ EnergySeries energies(Trajectory<Dim>& trajectory);
 /// Mean over the run by blocking; without an error if the series is not evenly spaced in time.
 Estimate time_average(const std::vector<double>& time, const std::vector<double>& series);
 
+/// The mean temperature kT of a run with zero net momentum, 2 E/(d(N − 1) + R) with E = N ⟨total⟩.
+double mean_temperature(const EnergySeries& energy, std::size_t particles, std::size_t rotations,
+                        int dimension);
+
 struct CompressibilitySeries {
   std::vector<double> time;   ///< middle of the interval between two frames
   std::vector<double> value;  ///< Z in that interval
@@ -39,7 +43,7 @@ struct CompressibilitySeries {
 ///
 ///     Z = 1 + Δ(Σ J n·d)/(d N kT Δt).
 ///
-/// kT is the mean temperature of the run, 2 E/(dN − d + R) with E = N ⟨total⟩: exact for zero net
+/// kT is the mean temperature of the run: exact for zero net
 /// momentum, where the virial rate depends on ⟨(v_1 − v_2)²⟩ only and the centre of mass takes none
 /// of the energy. `virial` belongs to the times of `energy`; fewer than two of them give NaN, as does a run
 /// without collisions.

@@ -57,6 +57,31 @@ std::vector<Table> velocity_tables(const VelocityCorrelations& found) {
   return {correlation, spectrum};
 }
 
+Observable viscosity_observable() {
+  return {.table = "viscosity",
+          .what =
+              "Mean squared change of the Helfand moments, <(G(t) - G(0))^2>/(2 V kT), whose "
+              "slope is the shear viscosity; of elastic Newtonian runs.",
+          .needs = {.motion = true},
+          .charts = {{.section = in_motion,
+                      .heading = "Helfand moment of the shear stress",
+                      .symbol = "⟨ΔG(t)²⟩/(2VkT)",
+                      .curves = {{"moment", "⟨ΔG²⟩"}},
+                      .scale = Chart::Scale::logarithmic,
+                      .is_x_logarithmic = true,
+                      .has_power_laws = true}}};
+}
+
+Table viscosity_table(const Viscosity& found, int dimension) {
+  const Observable observable = viscosity_observable();
+  return {observable.table,
+          observable.what,
+          {{"time", "time", found.lag, {}},
+           {"moment", fmt::format("kT time^2/length^{}", dimension), found.moment.value,
+            found.moment.error},
+           {"origins", "1", {found.origins.begin(), found.origins.end()}, {}}}};
+}
+
 /// The table of a function of two times has the x of its chart as rows, and a column for every lag.
 struct TwoTimeTable {
   Observable observable;
@@ -136,6 +161,7 @@ Table table_of(const TwoTimeTable& kind, const TwoTimeAverages& found) {
 std::vector<Table> motion_tables(const RunMotion& motion) {
   std::vector<Table> tables;
   if (motion.velocities) tables = velocity_tables(*motion.velocities);
+  if (motion.viscosity) tables.push_back(viscosity_table(*motion.viscosity, motion.dimension));
   tables.push_back(lag_table(motion.lags));
   const std::vector<TwoTimeTable> kinds = two_time_tables();
   for (std::size_t k = 0; k < motion.two_times.size(); ++k)
@@ -145,6 +171,7 @@ std::vector<Table> motion_tables(const RunMotion& motion) {
 
 std::vector<Observable> motion_observables() {
   std::vector<Observable> observables = velocity_observables();
+  observables.push_back(viscosity_observable());
   observables.push_back(
       {.table = "lag_times",
        .what = "Time differences of the tables with a column for each, about ten.",

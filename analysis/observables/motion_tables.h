@@ -5,6 +5,7 @@
 
 #include "analysis/dynamics/two_times.h"
 #include "analysis/dynamics/velocity_correlation.h"
+#include "analysis/dynamics/viscosity.h"
 #include "analysis/observables/observable.h"
 #include "analysis/results.h"
 
@@ -12,7 +13,9 @@ namespace vitrel {
 
 /// What is measured of the motion between frames beside the correlations of dynamics_tables.h.
 struct RunMotion {
+  int dimension = 2;
   std::optional<VelocityCorrelations> velocities = {};  ///< if there are any
+  std::optional<Viscosity> viscosity = {};              ///< if the file has Helfand moments
   std::vector<Lag> lags = {};                           ///< those of two_times
   /// Self and distinct part of the Van Hove function, and the four-point structure factor.
   std::vector<TwoTimeAverages> two_times = {};

@@ -33,9 +33,10 @@ Observable summary_observable() {
       .table = "summary",
       .what =
           "One row: packing fraction, and averages over the run, of the compressibility factor, "
-          "energies and diffusion coefficients.",
+          "energies, diffusion coefficients and the shear viscosity.",
       .charts = {over_density("Diffusion", "D", "diffusion", over_decades),
                  over_density("Rotational diffusion", "Dᵣ", "rotational_diffusion", over_decades),
+                 over_density("Shear viscosity", "η", "viscosity", over_decades),
                  over_density("Compressibility factor", "Z = βP/ρ", "compressibility_factor")}};
 }
 

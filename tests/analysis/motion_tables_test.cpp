@@ -23,8 +23,10 @@ Names names(const std::vector<Column>& columns) {
 RunMotion motion_of(MemoryTrajectory2& trajectory) {
   const Configuration2 first = trajectory.read(0);
   const std::vector<Lag> lags = few_lags_of_motion(trajectory, {});
-  return {velocity_correlations(trajectory), lags,
-          average_two_times<2>(
+  return {.velocities = velocity_correlations(trajectory),
+          .viscosity = shear_viscosity(trajectory.times(), {{0, 1, 0, 1, 0, 1, 0}}, {1, 1, 1}),
+          .lags = lags,
+          .two_times = average_two_times<2>(
               trajectory, lags,
               {van_hove_self<2>({}), van_hove_distinct(first, lags, PairCorrelationOptions{}),
                four_point_structure(first.box, 0.3)})};
@@ -45,6 +47,8 @@ TEST(MotionTables, HaveTheColumnsThatOthersRelyOn) {
             (Names{"time", "c", "c_angular", "origins"}));
   EXPECT_EQ(names(results.find("velocity_spectrum")->columns),
             (Names{"frequency", "g", "g_angular"}));
+  EXPECT_EQ(names(results.find("viscosity")->columns), (Names{"time", "moment", "origins"}));
+  EXPECT_EQ(results.find("viscosity")->find("moment")->unit, "kT time^2/length^2");
   EXPECT_EQ(names(results.find("lag_times")->columns), (Names{"index", "time", "origins"}));
   EXPECT_EQ(names(results.find("van_hove_self")->columns),
             (Names{"r", "density_1", "density_2", "density_3"}));

@@ -111,7 +111,7 @@ void begin(const AnalysisProgress& progress, const char* phase) {
 bool wants_motion(const TableChoice& wanted) {
   return wanted.has({"summary", "displacements", "self_scattering", "orientation", "cage_relative",
                      "collective_scattering", "wave_numbers", "susceptibility", "ageing",
-                     "waiting_times", "relaxation", "relaxation_times"});
+                     "waiting_times", "relaxation", "relaxation_times", "viscosity"});
 }
 
 /// The short part first: it refuses wave numbers that do not fit into the box.
@@ -119,10 +119,11 @@ template <int Dim>
 RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOptions options,
                              const TableChoice& wanted, const AnalysisProgress& progress) {
   options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), trajectory.read(0));
-  options.parts = {.displacement = wanted.has({"displacements", "summary", "relaxation"}),
-                   .scattering = wanted.has({"self_scattering", "relaxation_times", "relaxation"}),
-                   .orientation = wanted.has({"orientation", "relaxation_times", "relaxation"}),
-                   .overlap = wanted.has({"susceptibility"})};
+  options.parts = {
+      .displacement = wanted.has({"displacements", "summary", "relaxation", "viscosity"}),
+      .scattering = wanted.has({"self_scattering", "relaxation_times", "relaxation"}),
+      .orientation = wanted.has({"orientation", "relaxation_times", "relaxation"}),
+      .overlap = wanted.has({"susceptibility"})};
   RunDynamics dynamics;
   if (wanted.has({"collective_scattering", "wave_numbers"})) {
     begin(progress, "collective scattering");
@@ -147,7 +148,7 @@ RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOption
 template <int Dim>
 RunMotion measure_motion(TrajectoryFile<Dim>& trajectory, const Parameters& parameters,
                          const TableChoice& wanted, const AnalysisProgress& progress) {
-  RunMotion motion;
+  RunMotion motion{.dimension = Dim};
   if (wanted.has({"velocity_autocorrelation", "velocity_spectrum"}) &&
       mechanics(trajectory.read(0)).translational_energy > 0) {
     begin(progress, "velocities");
@@ -208,6 +209,29 @@ std::optional<GlassRun> measure_glass(TrajectoryFile<Dim>& trajectory, const std
   const auto data = glass_run_data(trajectory, source, parameters.analysis, progress.report);
   if (!data) return std::nullopt;
   return judge_glass_run(*data);
+}
+
+/// A time in which the stress decays: particles have moved by a unit of length, which in a liquid is out of their
+/// cages, and have collided ten times each.
+double stress_relaxation_time(const RunAnalysis& run) {
+  const Displacements& found = run.dynamics->displacements;
+  const std::vector<double>& square = found.groups.front().translation.value;
+  const auto moved = std::ranges::find_if(square, [](double value) { return value >= 1; });
+  if (moved == square.end()) return unknown;
+  const double ten_collisions =
+      5 * static_cast<double>(run.particles) * run.duration / run.collisions;
+  return std::max(found.lag[static_cast<std::size_t>(moved - square.begin())], ten_collisions);
+}
+
+template <int Dim>
+std::optional<Viscosity> measure_viscosity(TrajectoryFile<Dim>& trajectory, const RunAnalysis& run,
+                                           const TimeAxisOptions& axis) {
+  const auto moments = helfand_moments(trajectory.reader());
+  if (moments.empty()) return std::nullopt;
+  const Configuration<Dim>& state = trajectory.read(0);
+  const double temperature = mean_temperature(run.energy, run.particles, run.rotations, Dim);
+  return shear_viscosity(trajectory.times(), moments,
+                         {state.box.volume(), temperature, stress_relaxation_time(run)}, axis);
 }
 
 DiffusionCoefficient rotational_diffusion(const Displacements& found, std::size_t rotors,
@@ -280,7 +304,7 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
   if (!of_frames.empty() && wanted.has({"relaxation"})) of_frames.emplace_back("order");
   run.structure =
       measure_frames(trajectory, parameters.structure, all_cores, progress.report, of_frames);
-  if (wanted.has({"energies", "compressibility_factor", "summary", "relaxation"}))
+  if (wanted.has({"energies", "compressibility_factor", "summary", "relaxation", "viscosity"}))
     run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotations);
   run.diffusion = run.rotational_diffusion = no_diffusion(run.obstacle.c_str());
@@ -288,12 +312,14 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
   const Displacements& found = run.dynamics->displacements;
   run.diffusion = long_time_diffusion(found, found.groups.front().translation, Dim, times);
   run.rotational_diffusion = rotational_diffusion(found, run.rotors, Dim, times);
+  if (wanted.has({"viscosity", "summary"}))
+    run.motion->viscosity = measure_viscosity(trajectory, run, parameters.analysis.axis);
   if (wanted.has({"relaxation"}))
     run.glass = measure_glass(trajectory, name, run, parameters, progress);
   return run;
 }
 
-Column single(const char* name, const char* unit, double value, double error) {
+Column single(const char* name, const std::string& unit, double value, double error) {
   return {name, unit, {value}, {error}};
 }
 
@@ -319,6 +345,13 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
              run.rotational_diffusion.error),
       {"rotational_diffusion_from", "time", {run.rotational_diffusion.from}, {}},
       {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}, {}}};
+  if (run.motion && run.motion->viscosity) {
+    const Viscosity::Slope& viscosity = run.motion->viscosity->shear;
+    columns.push_back(single("viscosity", fmt::format("kT time/length^{}", run.motion->dimension),
+                             viscosity.value, viscosity.error));
+    columns.push_back({"viscosity_from", "time", {viscosity.from}, {}});
+    columns.push_back({"viscosity_to", "time", {viscosity.to}, {}});
+  }
   columns.insert(columns.end(), run.state.begin(), run.state.end());
   return columns;
 }
@@ -431,6 +464,8 @@ AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
     add_motion(run, wanted, trajectory.times(), results);
   else if (run.frames > 1 && !run.obstacle.empty())
     leave_out(results, "motion", run.obstacle);
+  if (run.motion && run.motion->viscosity && !run.motion->viscosity->shear.reason.empty())
+    leave_out(results, "viscosity", run.motion->viscosity->shear.reason);
   if (run.energy.time.empty() && wanted.has({"energies"}))
     leave_out(results, "energies", no_energies);
   keep_wanted(results, wanted, Dim);

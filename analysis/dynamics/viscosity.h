@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "analysis/dynamics/correlation.h"
+
+namespace vitrel {
+
+/// What of a run its viscosity depends on beside the moments.
+struct ViscosityScale {
+  double volume;       ///< V, an area in the plane
+  double temperature;  ///< kT
+  /// A time after which the stress has decayed; NaN where the run is too short to tell.
+  double relaxation_time;
+};
+
+struct Viscosity {
+  struct Slope {
+    double value;        ///< η; NaN if there is none
+    double error;        ///< standard error
+    double from, to;     ///< time differences between which the slope was taken
+    std::string reason;  ///< why there is no value; else empty
+  };
+
+  std::vector<double> lag;           ///< time differences t
+  std::vector<std::size_t> origins;  ///< averaged over, for every lag
+  Correlation moment;                ///< ⟨ΔG(t)²⟩/(2 V kT)
+  Slope shear;
+};
+
+/// The shear viscosity η from the Helfand moments G_ab of the frames (edmd/momentum_flux.h), a ≠ b,
+///
+///     ⟨[G_ab(t) − G_ab(0)]²⟩/(2 V kT) → η t + constant (helfand1960, in the form of alder1970 for collisions),
+///
+/// averaged over the elements `moments`, each with a value per frame, and over time origins. It is Green and Kubo's
+/// integral of the stress autocorrelation, without its noise from sampling, and exact for impulses.
+///
+/// 1. All frames are origins. The errors are those of CorrelationSum by blocks, and there is none at lags with fewer
+///    than eight of these.
+/// 2. With τ the relaxation time, η is the slope between τ and 3 τ, where the constant has dropped out. Its error is that
+///    of the series of this slope at every origin, by the same blocks. There is none, and the reason is said, where τ is
+///    unknown, the samples are not evenly spaced, or the run is too short.
+///
+/// For fluids of elastic particles whose momentum and energy are conserved, and which are isotropic; the box should be
+/// about cubic. Cost about (lags) × (frames) × 2 ns for each element.
+Viscosity shear_viscosity(const std::vector<double>& times,
+                          const std::vector<std::vector<double>>& moments,
+                          const ViscosityScale& scale, TimeAxisOptions axis = {});
+
+}  // namespace vitrel
