@@ -1,7 +1,6 @@
 """Self-diffusion of hard spheres: how it depends on the size of the periodic box, and its limit for an infinite one."""
 
 import concurrent.futures
-import itertools
 import math
 import pathlib
 import statistics
@@ -26,13 +25,8 @@ SPEEDY_PARTICLES, SPEEDY_TOLERANCE = 500, 0.02
 
 # The viscosity comes from runs of their own, of this many particles and these seeds.
 PARTICLES, SEEDS = 1372, range(11, 23)
-# Packing fraction: sample interval, about a sixth of the time in which the slowest shear flow decays, and duration.
-SAMPLING = {0.3: (1.2, 3000), 0.49: (0.16, 600)}
-# Longest lag, in sample intervals; an even number. At φ = 0.49 the slowest part of the stress relaxes on the same time
-# scale as the flow, whose correlation therefore changes sign before it vanishes.
-LAGS = 32
-SHELLS = (1, 2, 3)  # squared wave numbers, in units of (2π/L)²
-BLOCKS = 8  # of each run, for the error
+# Packing fraction: sample interval and duration.
+SAMPLING = {0.3: (1, 3000), 0.49: (4, 3000)}
 
 
 def number_density(phi):
@@ -117,82 +111,24 @@ class Line:
 
 # Viscosity
 
-def wave_vectors(squared):
-    """The integer vectors of this squared length, one of every pair k, −k."""
-    return [k for k in itertools.product((-1, 0, 1), repeat=3) if sum(c * c for c in k) == squared and k > (0, 0, 0)]
-
-
-def shear_currents(file, vectors):
-    """The transverse part of Σ v exp(−i k·r): an array of frames × wave vectors × 3."""
-    import h5py  # only here: a test imports all validations
-    import numpy
-
-    units = numpy.array([numpy.array(k) / math.hypot(*k) for k in vectors])
-    currents = []
-    with h5py.File(file) as run:
-        particles = run["particles/all"]
-        length = particles["box/edges/value"][0, 0, 0]
-        for positions, velocities in zip(particles["position/value"], particles["velocity/value"]):
-            waves = numpy.exp(-2j * math.pi / length * positions)
-            phases = [numpy.prod([waves[:, d] if k[d] > 0 else waves[:, d].conj() for d in range(3) if k[d]], axis=0)
-                      for k in vectors]
-            current = numpy.array(phases) @ velocities
-            currents.append(current - units * numpy.sum(units * current, axis=1, keepdims=True))
-    return numpy.array(currents)
-
-
-def correlations(currents):
-    """Re⟨j(t)·j*(0)⟩ of the lags 0 … LAGS in every block of the origins: blocks × lags."""
-    import numpy
-
-    origins = len(currents) - LAGS
-    products = numpy.array([numpy.sum(currents[lag:origins + lag] * currents[:origins].conj(), axis=(1, 2)).real
-                            for lag in range(LAGS + 1)])
-    return numpy.array([block.mean(axis=1) for block in numpy.array_split(products, BLOCKS, axis=1)])
-
-
-def relaxation_time(correlation):
-    """∫₀^∞ C dt/C(0), in sample intervals: Simpson's rule to the last lag, beyond which C decays exponentially."""
-    integral = (correlation[0] + 4 * sum(correlation[1:-1:2]) + 2 * sum(correlation[2:-1:2]) + correlation[-1]) / 3
-    return integral / (correlation[0] - correlation[-1])
-
-
-def shear_viscosity(phi, blocks):
-    """η(k → 0) from C of every shell, averaged over these blocks."""
-    import numpy
-
-    length = (PARTICLES / number_density(phi)) ** (1 / 3)
-    interval, _ = SAMPLING[phi]
-    found = [number_density(phi) / (interval * relaxation_time(numpy.mean(shell, axis=0)) * n * (2 * math.pi / length)**2)
-             for n, shell in zip(SHELLS, blocks)]
-    # Inverse variances grow with the number of modes and with that of their relaxation times in a run.
-    weights = [math.sqrt(n * len(wave_vectors(n))) for n in SHELLS]
-    return numpy.polyfit(SHELLS, found, 1, w=weights)[1]
-
-
-def correlations_of_run(build, phi, seed):
-    """Of every shell."""
+def viscosity_of_run(build, phi, seed):
+    """What `vitrel analyze` gives for it, and its standard error."""
     interval, duration = SAMPLING[phi]
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "run.h5")
         summary_of(build, "run", PARAMETERS, "-o", file, *settings((
             f"system.packing_fraction={phi}", f"system.particles={PARTICLES}", f"system.seed={seed}",
-            f"dynamics.duration={duration}", f"output.samples.interval={interval}", "output.velocities=true")))
-        vectors = [k for n in SHELLS for k in wave_vectors(n)]
-        currents = shear_currents(file, vectors)
-    return [correlations(currents[:, [sum(c * c for c in k) == n for k in vectors]]) for n in SHELLS]
+            f"dynamics.duration={duration}", f"output.samples.interval={interval}")))
+        found = summary_of(build, "analyze", file, "--only", "viscosity")
+    expect(found["viscosity"] is not None, f"φ = {phi}, seed {seed}: no viscosity")
+    return found["viscosity"], found["viscosity_error"]
 
 
 def viscosity(build, phi):
-    """η and its standard error, from the jackknife over blocks."""
-    import numpy
-
+    """The mean over the runs, with the error from those of the runs."""
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        runs = list(pool.map(lambda seed: correlations_of_run(build, phi, seed), SEEDS))
-    blocks = [numpy.concatenate(shell) for shell in zip(*runs)]
-    count = len(blocks[0])
-    without = [shear_viscosity(phi, [numpy.delete(shell, k, axis=0) for shell in blocks]) for k in range(count)]
-    return shear_viscosity(phi, blocks), math.sqrt(count - 1) * statistics.pstdev(without)
+        values, errors = zip(*pool.map(lambda seed: viscosity_of_run(build, phi, seed), SEEDS))
+    return statistics.mean(values), math.hypot(*errors) / len(errors)
 
 
 # The page
@@ -254,10 +190,8 @@ which is the term k = 0 that the hydrodynamic sum over wave vectors leaves out, 
 {table(["φ", "N", "L", "Z", "D", "residual", "D/D_E", "from", "collisions"], rows)}
 
 Hydrodynamics predicts s = −{LATTICE_SUM} kT/(6π η) (Dünweg and Kremer 1993; Yeh and Hummer 2004). The viscosity η is measured in
-other runs, {len(SEEDS)} of {PARTICLES} spheres each, from the transverse current j, the part of Σ v exp(−i k·r) perpendicular to k:
-∫⟨j(t)·j*(0)⟩dt/⟨|j|²⟩ = ρ m/(η(k) k²), in the three lowest shells of k, extrapolated to k = 0 linearly in k². Its error is that
-of the jackknife over {BLOCKS * len(SEEDS)} blocks. η_E is the viscosity of the Enskog theory. The runs and the method have nothing in common with
-the displacements except the dynamics. Required: a ratio of the slopes within {SLOPE_TOLERANCE:.0%} of 1, and χ² below
+other runs, {len(SEEDS)} of {PARTICLES} spheres each, by `vitrel analyze --only viscosity` from the Helfand moments of the stress. η_E is the viscosity of the Enskog theory. The runs and the method
+have nothing in common with the displacements except the dynamics. Required: a ratio of the slopes within {SLOPE_TOLERANCE:.0%} of 1, and χ² below
 {" or ".join(f"{limit:g} ({degrees} degrees of freedom)" for degrees, limit in LARGEST_CHI_SQUARE.items())}; false-alarm rate of χ²: 0.1 % per row.
 
 {table(["φ", "D(∞)", "D(∞)/D_E", "χ²", "degrees of freedom", "s", "s, all sizes", "η", "η/η_E", "s, hydrodynamic", "ratio"], slopes)}

@@ -40,27 +40,6 @@ class SelfDiffusion(unittest.TestCase):
         self.assertAlmostEqual(self_diffusion.speedy_diffusion(1e-6) / dilute, 1, delta=1e-5)
         self.assertAlmostEqual(self_diffusion.enskog_diffusion(1e-6) / dilute, 1.01896, delta=1e-5)
 
-    def test_wave_vectors_are_one_of_each_pair(self):
-        # 6 faces, 12 edges and 8 corners of a cube.
-        for squared, count in ((1, 6), (2, 12), (3, 8)):
-            vectors = self_diffusion.wave_vectors(squared)
-            both = set(vectors) | {tuple(-c for c in k) for k in vectors}
-            self.assertEqual((len(vectors), len(both)), (count / 2, count))
-
-    def test_viscosity_of_exponential_decays(self):
-        # Simpson's rule is off by (rate · interval)⁴/180 < 3e-4 in the third shell, 5e-5 in the second; these enter
-        # the value at k = 0 with weights of about −1 and 1.
-        phi, eta, slope = 0.3, 0.2, 0.01
-        interval, _ = self_diffusion.SAMPLING[phi]
-        length = (self_diffusion.PARTICLES / self_diffusion.number_density(phi)) ** (1 / 3)
-
-        def decay(squared):
-            rate = (eta - slope * squared) * squared * (2 * math.pi / length) ** 2 / self_diffusion.number_density(phi)
-            return [[math.exp(-rate * interval * lag) for lag in range(self_diffusion.LAGS + 1)]]
-
-        found = self_diffusion.shear_viscosity(phi, [decay(n) for n in self_diffusion.SHELLS])
-        self.assertAlmostEqual(found / eta, 1, delta=4e-4)
-
 
 if __name__ == "__main__":
     unittest.main()
