@@ -202,6 +202,9 @@ class CommandLine : public ProgramCommandLine {
     arrays.add_option("--horizon", pair_arrays_.horizon, "Of first contacts (10)")->check(positive);
     add("structure-factor", "The structure factor by Fourier transform beside the direct sum.",
         structure_factor);
+    add("analysis-growth", "How does the cost of analysing motion grow?", [this] {
+      return analysis_growth(parts_.quick);
+    }).add_flag("--quick", parts_.quick, "A tenth of the frames: to see that it works");
     add("restitution", "How accurate and how fast is the restitution matrix?", [this] {
       return restitution(parts_.quick);
     }).add_flag("--quick", parts_.quick, "Few points: to see that it works");

@@ -49,6 +49,7 @@ struct PairArraysOptions {
 int pair_arrays(const PairArraysOptions& options);
 
 int structure_factor();
-int restitution(bool quick);  ///< quick: few points
+int analysis_growth(bool quick);  ///< quick: a tenth of the frames
+int restitution(bool quick);      ///< quick: few points
 
 }  // namespace vitrel::bench

@@ -51,7 +51,7 @@ SYSTEMS = {
     "spheres": ("dimension = 3\nparticles = 108\npacking_fraction = 0.45", ["aspect_ratio = 1"], "duration = 100", 0.25,
                 ""),
     "brownian_spheroids": ("dimension = 3\nparticles = 108\npacking_fraction = 0.45", ["aspect_ratio = 2"],
-                           BROWNIAN + "duration = 150", 0.5, ""),
+                           BROWNIAN + "duration = 400", 0.5, ""),
     "soft": ("particles = 100\npacking_fraction = 0.5", ["aspect_ratio = 1"], "duration = 200", 0.5, SOFT),
     "compressed": ("particles = 100", ["aspect_ratio = 2"], None, None, COMPRESS),
 }

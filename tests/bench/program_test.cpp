@@ -243,6 +243,11 @@ TEST(Bench, QuickProgramsPrintWhatTheyMeasure) {
   EXPECT_THAT(run(folder.path(), {"first-contact", "generic", "6", "--pairs", "50"}).output,
               HasSubstr("ns per prediction"));
   EXPECT_EQ(run(folder.path(), {"first-contact", "easy"}).code, 2);
+  const Json growth = json({"analysis-growth", "--quick"});
+  for (const char* axis : {"frames", "particles", "lags", "threads"}) {
+    EXPECT_GT(growth[axis].back()[axis], growth[axis].front()[axis]);
+    for (const Json& row : growth[axis]) EXPECT_LT(row["difference"], 1e-9) << row;
+  }
 }
 
 TEST(Bench, StopsOnASignalWithTheRowsDone) {
