@@ -1,7 +1,10 @@
 // The program from outside: what it prints, writes and returns.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +21,6 @@
 #include "core/io/h5md.h"
 #include "tests/app/program.h"
 #include "tests/support/partial_files.h"
-#include "workflow/sweep/folder_lock.h"
 
 namespace vitrel {
 namespace {
@@ -746,14 +748,16 @@ TEST(Program, AJobIsWorkedOffOnceHoweverManyProcessesGetIt) {
     return std::async(std::launch::async,
                       [&folder, own_folder, words] { return run(folder / own_folder, words); });
   };
-  auto held = std::make_optional<FolderLock>(folder / "sweep/seed-1");
-  held->hold_alone();
+  // Not a FolderLock, which the processes to be started would inherit.
+  const int held = checked(
+      open((folder / "sweep/seed-1/lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666), "open");
+  checked(flock(held, LOCK_EX), "flock");
   auto first = start("a", {"--job", "seed-1"}), second = start("b", {"--job", "seed-1"});
   for (const char* errors : {"a/standard_error", "b/standard_error"})
     while (folder.read(errors).find("waiting for another process") == std::string::npos)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
   expect_refusal(start("c", {"-q"}).get(), 2, "another process works on this sweep");
-  held.reset();
+  checked(close(held), "close");
   int worked = 0, found_done = 0;
   for (const Outcome& outcome : {first.get(), second.get()}) {
     EXPECT_EQ(outcome.code, 0) << outcome.errors;
