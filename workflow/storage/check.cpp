@@ -11,14 +11,12 @@
 namespace vitrel {
 namespace {
 
-constexpr std::size_t max_complaints = 2;
-
 template <int Dim>
 void note_overlaps(FileCheck<Dim>& result, const ExactCheck<Dim>& check, std::uint64_t frame,
-                   double time) {
+                   double time, std::size_t named) {
   result.overlaps += check.overlaps.size();
   for (const PairImage<Dim>& pair : check.overlaps) {
-    if (result.complaints.size() == max_complaints) return;
+    if (result.complaints.size() == named) return;
     result.complaints.push_back(fmt::format(
         "frame {} (time {:.6g}): particles {} and {}, image ({}), would touch if scaled by 1 − "
         "{:.3g}",
@@ -35,13 +33,15 @@ FileCheck<Dim> check_file(const TrajectoryReader& reader, bool last_only,
   if (reader.frames() == 0) throw FileError(reader.path().string() + ": has no frame to check");
   FileCheck<Dim> result;
   result.smallest_gap = std::numeric_limits<double>::infinity();
+  // A message has two lines of details at most: two overlaps, or one and what may be the reason.
+  const std::size_t named = reader.has_single_precision() ? 1 : 2;
   const std::uint64_t first = last_only ? reader.frames() - 1 : 0;
   for (std::uint64_t frame = first; frame < reader.frames() && !control.stop_requested(); ++frame) {
     reader.read(frame, result.last);
     const ExactCheck<Dim> check = exact_check(result.last);
     ++result.frames;
     result.close_pairs += result.last.close_pairs.size();
-    note_overlaps(result, check, frame, result.last.time);
+    note_overlaps(result, check, frame, result.last.time, named);
     if (check.smallest_gap < result.smallest_gap) {
       result.smallest_gap = check.smallest_gap;
       result.smallest_gap_frame = frame;
