@@ -4,11 +4,13 @@
 
 #include <string_view>
 
+#include "analysis/observables/observable.h"
 #include "app/commands/bench.h"
 #include "app/commands/commands.h"
 #include "app/commands/pair.h"
 #include "app/terminal/completion.h"
 #include "app/terminal/program_command_line.h"
+#include "core/error.h"
 #include "core/io/foreign/foreign_formats.h"
 #include "workflow/configuration/sections.h"
 #include "workflow/export/trajectory_export.h"
@@ -25,6 +27,16 @@ const std::string exit_codes =
 const std::string overlap_code = ", 4 overlap or another broken invariant";
 const std::string stopped_code = ", 5 stopped (nothing was written).";
 const std::string resumed_code = ", 5 stopped (the same command continues)";
+
+const CLI::Validator names_of_tables = {[](const std::string& names) {
+                                          try {
+                                            TableChoice{names};
+                                          } catch (const UserError& error) {
+                                            return std::string(error.what());
+                                          }
+                                          return std::string();
+                                        },
+                                        ""};
 
 void add_print(CLI::App& sub, PrintOptions& print) {
   sub.add_flag("-q,--quiet", print.quiet, "No progress and no summary");
@@ -196,6 +208,7 @@ class CommandLine : public ProgramCommandLine {
              analyze_.analysis.overrides.push_back("analysis.only=\"" + tables + '"');
            },
            "Only these tables of --list, separated by commas: msd,fs")
+        ->check(names_of_tables)
         ->type_name("TABLES");
     add_print(sub, analyze_.print);
   }

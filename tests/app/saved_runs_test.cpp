@@ -390,6 +390,28 @@ TEST(SavedRuns, TheListOfTablesNeedsNoRun) {
   EXPECT_THAT(list.output, HasSubstr("## `structure_factor`"));
   expect_refusal(run(folder.path(), {"analyze"}), 2, "name a run or the folder of a sweep");
   expect_refusal(run(folder.path(), {"analyze", "--list", "run.h5"}), 2, "--list");
+  expect_refusal(run(folder.path(), {"analyze", "run.h5", "--only", "msd,fss"}), 2,
+                 "--only: names the table \"fss\", which `vitrel analyze --list` does not have");
+}
+
+// The stress of other runs says nothing of a viscosity, and is not stored.
+TEST(SavedRuns, OnlyElasticNewtonianRunsHaveAViscosity) {
+  const Folder folder("viscosity");
+  folder.write("p.toml",
+               "[system]\nparticles = 50\npacking_fraction = 0.2\n[[species]]\n"
+               "aspect_ratio = 1\n[dynamics]\nduration = 4000\n"
+               "[output]\nsamples = { interval = 4 }\n");
+  int runs = 0;
+  const auto analysed = [&](const std::string& setting) {
+    const std::string file = "run" + std::to_string(++runs) + ".h5";
+    succeed(folder, {"run", "p.toml", "-o", file, "-q", "--set", setting});
+    return summary_of(folder, {"analyze", file, "--only", "viscosity"});
+  };
+  const auto elastic = analysed("dynamics.restitution=1.0");
+  EXPECT_GT(elastic["viscosity"], 0);
+  EXPECT_GT(elastic["viscosity_error"], 0);
+  for (const char* other : {"dynamics.kind=\"brownian\"", "dynamics.restitution=0.99"})
+    EXPECT_FALSE(analysed(other).contains("viscosity")) << other;
 }
 
 }  // namespace
