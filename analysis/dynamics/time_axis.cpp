@@ -209,6 +209,7 @@ std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
 template <int Dim>
 std::vector<Lag> few_lags_of_motion(const Trajectory<Dim>& trajectory, TimeAxisOptions options) {
   options.max_origins = std::min(options.max_origins, few_origins);
+  options.longest_lag = std::min(options.longest_lag, longest_of_few);
   std::vector<Lag> all = time_axis_of_motion(trajectory, options), few;
   if (all.empty()) return few;
   const double shortest = all.front().time, range = all.back().time / shortest;

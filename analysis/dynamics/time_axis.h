@@ -84,11 +84,13 @@ template <int Dim>
 std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
                                      const TimeAxisOptions& options = {});
 
-/// The most origins that few_lags_of_motion takes.
+/// The most origins that few_lags_of_motion takes, and the longest of its time differences, as a fraction of an evenly
+/// sampled run: errors of longer ones would rest on too few independent origins.
 inline constexpr std::size_t few_origins = 128;
+inline constexpr double longest_of_few = 0.125;
 
 /// Ten of those lags, or fewer, about equally far apart on a logarithmic scale, the shortest and the longest among
-/// them: for functions of more than the time difference. They share origins, 128 at most.
+/// them: for functions of more than the time difference. They share origins.
 template <int Dim>
 std::vector<Lag> few_lags_of_motion(const Trajectory<Dim>& trajectory, TimeAxisOptions options);
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "analysis/observables/frame_observable.h"
+#include "analysis/statistics/blocking.h"
 #include "analysis/structure/pair_correlation.h"
 #include "analysis/structure/structure_factor.h"
 
@@ -24,7 +25,8 @@ class PairCorrelationObservable final : public FrameObservable<Dim> {
       : rotors_(rotor_count(first)),
         pairs_(pair_names(first.species_names)),
         options_(options),
-        partial_(pairs_.size()) {}
+        partial_(pairs_.size()),
+        mixing_(pairs_.size()) {}
 
   std::function<void()> measure(const Configuration<Dim>& frame) override {
     return [this, pairs = pair_correlation(frame, options_),
@@ -41,7 +43,8 @@ class PairCorrelationObservable final : public FrameObservable<Dim> {
                             Dim == 2 ? "<cos n(theta_i - theta_j)>" : "<P_n(u_i.u_j)>"),
                 {{"r", "length", distance_, {}}, averaged("g", "1", g_, is_even)}};
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      Column partial = averaged("g_" + identifier(pairs_[k]), "1", partial_[k], is_even);
+      Column partial =
+          averaged("g_" + identifier(pairs_[k]), "1", partial_[k], is_even, mixing_[k]);
       if (!partial.value.empty()) table.columns.push_back(std::move(partial));
     }
     if (rotors_ > 1) {
@@ -56,7 +59,10 @@ class PairCorrelationObservable final : public FrameObservable<Dim> {
     ++frames_;
     if (pairs.distance.size() > distance_.size()) distance_ = pairs.distance;
     g_.add(pairs.g);
-    for (std::size_t k = 0; k < pairs.partial.size(); ++k) partial_[k].add(pairs.partial[k]);
+    for (std::size_t k = 0; k < pairs.partial.size(); ++k) {
+      partial_[k].add(pairs.partial[k]);
+      mixing_[k].push_back(mean_of(pairs.partial[k]) - mean_of(pairs.g));
+    }
     g_2_.add(pairs.g_2, pairs.rotor_pairs);
     g_4_.add(pairs.g_4, pairs.rotor_pairs);
     if (by_angle.distance.size() > near_.size()) near_ = by_angle.distance;
@@ -85,6 +91,8 @@ class PairCorrelationObservable final : public FrameObservable<Dim> {
   std::vector<double> distance_, near_;
   FrameAverage g_, g_2_, g_4_;
   std::vector<FrameAverage> partial_;
+  /// Mean of g_A_B − g over the distances, in every frame: pairs of species are as slow as these mix.
+  std::vector<std::vector<double>> mixing_;
   std::array<FrameAverage, axis_angle_bins<Dim>> by_angle_;
 };
 

@@ -19,12 +19,13 @@ Names names(const std::vector<Column>& columns) {
   return result;
 }
 
-/// Of seven frames, with lags of one, two and three steps.
+/// Of 25 frames, with lags of one, two and three steps.
 RunMotion motion_of(MemoryTrajectory2& trajectory) {
   const Configuration2 first = trajectory.read(0);
   const std::vector<Lag> lags = few_lags_of_motion(trajectory, {});
   return {.velocities = velocity_correlations(trajectory),
-          .viscosity = shear_viscosity(trajectory.times(), {{0, 1, 0, 1, 0, 1, 0}}, {1, 1, 1}),
+          .viscosity = shear_viscosity(trajectory.times(),
+                                       {std::vector<double>(trajectory.frames())}, {1, 1, 1}),
           .lags = lags,
           .two_times = average_two_times<2>(
               trajectory, lags,
@@ -32,15 +33,15 @@ RunMotion motion_of(MemoryTrajectory2& trajectory) {
                four_point_structure(first.box, 0.3)})};
 }
 
-MemoryTrajectory2 seven_frames() {
+MemoryTrajectory2 few_frames() {
   Configuration2 start = ellipses(20);
   Stream draw(1, Purpose::tests);
   redraw_velocities(start, draw);
-  return free_brownian(start, 7, 1);
+  return free_brownian(start, 25, 1);
 }
 
 TEST(MotionTables, HaveTheColumnsThatOthersRelyOn) {
-  MemoryTrajectory2 trajectory = seven_frames();
+  MemoryTrajectory2 trajectory = few_frames();
   const RunMotion motion = motion_of(trajectory);
   const Results results{motion_tables(motion), {}};
   EXPECT_EQ(names(results.find("velocity_autocorrelation")->columns),
@@ -65,7 +66,7 @@ TEST(MotionTables, HaveTheColumnsThatOthersRelyOn) {
 }
 
 TEST(MotionTables, WithoutVelocitiesOrEvenTimesSomeAreAbsent) {
-  MemoryTrajectory2 even = seven_frames();
+  MemoryTrajectory2 even = few_frames();
   MemoryTrajectory2 uneven({even.read(0), even.read(1), even.read(2), even.read(4)});
   RunMotion motion = motion_of(uneven);
   EXPECT_TRUE(Results({motion_tables(motion), {}}).find("velocity_autocorrelation"));
