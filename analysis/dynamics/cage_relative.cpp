@@ -163,7 +163,7 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
     throw UserError("cage-relative displacements: at least two frames are needed");
   const Configuration2& first = trajectory.read_places(0);
   TimeAxisOptions axis = options.axis;
-  axis.max_origins = std::min(axis.max_origins, origins_for(first.size(), max_origins));
+  axis.max_origins = std::min(axis.max_origins, origins_for(first.size(), max_origins, 8));
   const std::vector<Lag> lags = time_axis_of_motion(trajectory, axis);
   const std::vector<bool> is_origin = origins_of(lags, trajectory.frames());
   if (!fits(is_origin, first.size(), options.memory)) return std::nullopt;

@@ -32,7 +32,7 @@ struct CageRelative {
 /// illing2017). Independent particles have ⟨|Δr_c|²⟩ = ⟨|Δr|²⟩ (1 + ⟨1/n⟩).
 ///
 /// Lags are those of displacements, with 256 origins at most; with more than 8192 particles there are fewer,
-/// down to 64. All positions and the neighbours at the origins are kept: about (16 F + 30 F₀) N bytes for F
+/// down to 32. All positions and the neighbours at the origins are kept: about (16 F + 30 F₀) N bytes for F
 /// frames, F₀ of which are origins. The result is none if that exceeds `options.memory`. Threads share the
 /// lags, and the result does not depend on their number. Throws UserError for fewer than two frames.
 std::optional<CageRelative> cage_relative(Trajectory2& trajectory,

@@ -161,10 +161,10 @@ std::vector<Lag> uneven_lags(std::span<const double> times, const TimeAxisOption
 
 }  // namespace
 
-std::size_t origins_for(std::size_t particles, std::size_t most) {
+std::size_t origins_for(std::size_t particles, std::size_t most, std::size_t divisor) {
   constexpr std::size_t particles_at_all = std::size_t{1} << 21;
   return std::clamp(particles_at_all / std::max<std::size_t>(1, particles),
-                    std::max<std::size_t>(1, most / 4), most);
+                    std::max<std::size_t>(1, most / divisor), most);
 }
 
 std::size_t even_stride(std::size_t frames, const TimeAxisOptions& options) {

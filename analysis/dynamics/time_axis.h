@@ -67,9 +67,9 @@ struct Lag {
 /// and a second for the pairs.
 std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions& options = {});
 
-/// Origins enough for averages over so many particles at each of them: `most`, but fewer, down to a quarter, if
-/// together these were more than 2²¹ particles.
-std::size_t origins_for(std::size_t particles, std::size_t most);
+/// Origins enough for averages over so many particles at each of them: `most`, but fewer, down to `most`/`divisor`,
+/// if together these were more than 2²¹ particles.
+std::size_t origins_for(std::size_t particles, std::size_t most, std::size_t divisor = 4);
 
 /// The number of frames from one origin to the next in an evenly sampled run.
 std::size_t even_stride(std::size_t frames, const TimeAxisOptions& options);
