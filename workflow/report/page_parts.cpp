@@ -73,6 +73,10 @@ Json unit_names(const PageUnits& units) {
           {"time", units.time},
           {"rad^2", "rad²"},
           {"length^2/time", units.diffusion},
+          {"kT time/length^2", "√(m kT/(ab))"},
+          {"kT time/length^3", "√(m kT)/(abc)^⅔"},
+          {"kT time^2/length^2", "m"},
+          {"kT time^2/length^3", "m/∛(abc)"},
           {"rad^2/time", units.rotational_diffusion}};
 }
 
