@@ -149,10 +149,10 @@ template <int Dim>
 VelocityCorrelations velocity_correlations(Trajectory<Dim>& trajectory,
                                            const DisplacementOptions& options,
                                            const ProgressReport& report) {
-  TimeAxisOptions axis = options.axis;
-  axis.max_origins = std::min(axis.max_origins, max_origins);
-  const std::vector<Lag> lags = lags_from_zero(trajectory.times(), axis);
   const std::size_t n = trajectory.read(0).size();
+  TimeAxisOptions axis = options.axis;
+  axis.max_origins = std::min(axis.max_origins, origins_for(n, max_origins));
+  const std::vector<Lag> lags = lags_from_zero(trajectory.times(), axis);
   const std::size_t intervals = spectrum_intervals(trajectory.times(), lags);
   VelocityCorrelations result;
   const bool rotates = mechanics(trajectory.read(0)).rotational_energy > 0;

@@ -37,8 +37,8 @@ struct VelocityCorrelations {
 /// 1. Velocities are those of the frames, with respect to the box; soft particles in contact count with the velocity
 ///    after it. Brownian steps draw velocities anew, so C is 0 from one step on. Angular velocities are in the axes of
 ///    space; those of particles that do not turn are 0.
-/// 2. Lags are 0 and those of the time axis, with the same origins for all, 128 at most. ⟨v²⟩ is taken at the origins
-///    of each lag, so that C(0) = 1 without error; the errors of C are those of MomentSum::ratio.
+/// 2. Lags are 0 and those of the time axis, with the same origins for all, 128 at most (origins_for). ⟨v²⟩ is taken at
+///    the origins of each lag, so that C(0) = 1 without error; the errors of C are those of MomentSum::ratio.
 /// 3. Spectra need evenly sampled frames. With Δ between frames, t_k = kΔ for k = 0 … M, up to where the time axis
 ///    first leaves out a lag, but 400 at most, Hann's window, and frequencies ω_j = πj/(MΔ) for j = 0 … M,
 ///
