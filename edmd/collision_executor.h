@@ -43,7 +43,7 @@ class CollisionExecutor {
   void collide_pair(Index i, const Event<B>& event, RunCounters& counters) {
     const Index j = event.partner.other;
     const double since = state_.now - std::max(state_.last_change(i), state_.last_change(j));
-    const Vector d = meet(i, event, counters);
+    const Vector d = meet(i, event);
     const Vector normal = event.normal_along(d);
     const double speed = collide(i, j, d, normal, counters);
     if (collapses_) collapse_.detect(i, j, speed * since);
@@ -53,7 +53,7 @@ class CollisionExecutor {
   /// The correction move for an overlapping pair.
   void correct_overlap(Index i, const Event<B>& event, RunCounters& counters) {
     const Index j = event.partner.other;
-    const Vector d = meet(i, event, counters);
+    const Vector d = meet(i, event);
     Motion<dimension> motion1 = state_.particles[i].motion(),
                       motion2 = state_.particles[j].motion();
     const Vector before = motion1.velocity - motion2.velocity;
@@ -125,7 +125,7 @@ class CollisionExecutor {
                        const Motion<dimension>& motion1, const Motion<dimension>& motion2,
                        RunCounters& counters) {
     const Vector mean = 0.5 * (before + motion1.velocity - motion2.velocity);
-    state_.flux.transfer(momentum, d, mean, counters.helfand_moment);
+    state_.flux.transfer(state_.now, momentum, d, mean, counters.helfand_moment);
   }
 
   bool cannot_come_apart(const ContactLaw& law, Index i, Index j, double speed) const {
@@ -198,8 +198,7 @@ class CollisionExecutor {
   }
 
   // Brings both to the present. Returns their separation.
-  Vector meet(Index i, const Event<B>& event, RunCounters& counters) {
-    state_.flux.advance(state_.now, counters.helfand_moment);
+  Vector meet(Index i, const Event<B>& event) {
     state_.advance_to_now(i);
     state_.advance_to_now(event.partner.other);
     return state_.separation(i, event.partner);

@@ -39,14 +39,16 @@ class MomentumFlux {
     for (std::size_t k = 0; k < shear_elements<Dim>; ++k) moments[k] += time * kinetic_[k];
     since_ = now;
   }
-  /// A collision, at the time of the last `advance`: the first particle hands this momentum on to the second over d. The
-  /// means of their relative velocity v_1 − v_2 before and after it give the change of m v_a v_b of both.
-  void transfer(const Vec<Dim>& momentum, const Vec<Dim>& d, const Vec<Dim>& mean_velocity,
-                ShearElements& moments) {
+  /// The same, and a collision: the first particle hands this momentum on to the second over d. The mean of their
+  /// relative velocity v_1 − v_2 before and after it gives the change of m v_a v_b of both.
+  void transfer(double now, const Vec<Dim>& momentum, const Vec<Dim>& d,
+                const Vec<Dim>& mean_velocity, ShearElements& moments) {
+    const double time = now - since_;
     for (std::size_t k = 0; k < shear_elements<Dim>; ++k) {
-      moments[k] += shear_element<Dim>(k, momentum, d);
+      moments[k] += time * kinetic_[k] + shear_element<Dim>(k, momentum, d);
       kinetic_[k] -= 2 * shear_element<Dim>(k, momentum, mean_velocity);
     }
+    since_ = now;
   }
 
  private:
