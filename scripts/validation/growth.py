@@ -22,6 +22,8 @@ def drawn(data):
         for key, label in (("plain_seconds", "plain loops"), ("seconds", "vitrel, with errors")):
             place.plot([row[axis] for row in data[axis]], [row[key] for row in data[axis]], marker="o", label=label)
         place.set(xscale="log", yscale="log", xlabel=name)
+        place.set_xticks([row[axis] for row in data[axis]], [row[axis] for row in data[axis]])
+        place.minorticks_off()
         place.grid(alpha=0.25)
     axes[0].set_ylabel("time / s")
     axes[0].legend(frameon=False, fontsize="small")
