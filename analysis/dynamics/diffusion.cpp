@@ -140,10 +140,6 @@ bool straight(const Halves& h) {
   return std::abs(h.change) <= chance * h.error;
 }
 
-DiffusionCoefficient without(const std::string& reason) {
-  return {unknown, unknown, unknown, unknown, reason};
-}
-
 /// Whether both halves of a window have two points, which a slope needs.
 bool has_halves(const Slopes& slopes, std::size_t begin) {
   const std::vector<double>& time = slopes.curve().time;
@@ -171,15 +167,20 @@ std::size_t first_point(const Slopes& slopes) {
 
 }  // namespace
 
+DiffusionCoefficient no_coefficient(const std::string& reason) {
+  return {unknown, unknown, unknown, unknown, reason};
+}
+
 DiffusionCoefficient diffusion_coefficient(const MeanSquareCurve& curve, int dimension) {
   check(curve);
   const Slopes slopes(points_with_error(curve));
   const MeanSquareCurve& m = slopes.curve();
   if (!enough_points(slopes))
-    return without("the times with known errors are too few, or span less than a factor of nine");
+    return no_coefficient(
+        "the times with known errors are too few, or span less than a factor of nine");
   if (!(m.value.back() >= 1))
-    return without(fmt::format("the mean square is only {:.3g} at the longest time {:.4g}",
-                               m.value.back(), m.time.back()));
+    return no_coefficient(fmt::format("the mean square is only {:.3g} at the longest time {:.4g}",
+                                      m.value.back(), m.time.back()));
 
   const double longest = m.time.back();
   std::size_t from = first_point(slopes);
@@ -188,7 +189,7 @@ DiffusionCoefficient diffusion_coefficient(const MeanSquareCurve& curve, int dim
   if (const Halves last = halves(slopes, from); !straight(last)) {
     change = std::abs(last.change);
     if (!(change <= tolerance * last.later))
-      return without(
+      return no_coefficient(
           fmt::format("not diffusive yet: the slope still changes by {:.0f} % between the "
                       "halves of [{:.4g}, {:.4g}]",
                       100 * last.change / last.later, m.time[from], longest));

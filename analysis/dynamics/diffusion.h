@@ -22,6 +22,9 @@ struct DiffusionCoefficient {
   std::string reason;  ///< why there is no value; else empty
 };
 
+/// None, for this reason.
+DiffusionCoefficient no_coefficient(const std::string& reason);
+
 /// The long-time diffusion coefficient D, from m(t) → 2 d D t + constant: d = 2 for translation, 1
 /// for rotation.
 ///

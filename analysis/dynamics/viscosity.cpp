@@ -3,14 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/special_values.h"
-
 namespace vitrel {
 namespace {
-
-Viscosity::Slope without(const char* reason) {
-  return {unknown, unknown, unknown, unknown, reason};
-}
 
 /// Squared changes over this lag from the first origins, added over the elements.
 std::vector<double> squared_changes(const std::vector<std::vector<double>>& moments, const Lag& lag,
@@ -32,23 +26,25 @@ Estimate mean_of_origins(std::span<const double> series, const Lag& lag, double 
 }
 
 /// Between the relaxation time and three times that.
-Viscosity::Slope slope(const std::vector<Lag>& lags,
-                       const std::vector<std::vector<double>>& moments, double relaxation_time,
-                       double factor) {
+DiffusionCoefficient slope(const std::vector<Lag>& lags,
+                           const std::vector<std::vector<double>>& moments, double relaxation_time,
+                           double factor) {
   const auto at = [&](double time) { return std::ranges::lower_bound(lags, time, {}, &Lag::time); };
   if (std::isnan(relaxation_time))
-    return without("particles have not moved by a unit of length: the stress may not have decayed");
+    return no_coefficient(
+        "particles have not moved by a unit of length: the stress may not have decayed");
   if (lags.empty() || !lags.front().pairs.empty())
-    return without("the samples are not evenly spaced in time");
+    return no_coefficient("the samples are not evenly spaced in time");
   const auto from = at(relaxation_time);
   const auto to = from == lags.end() ? from : at(3 * from->time);
   if (to == lags.end())
-    return without("the longest time difference is below three times that in which stress decays");
+    return no_coefficient(
+        "the longest time difference is below three times that in which stress decays");
   std::vector<double> changes = squared_changes(moments, *to, to->origins);
   const std::vector<double> before = squared_changes(moments, *from, to->origins);
   for (std::size_t k = 0; k < changes.size(); ++k) changes[k] -= before[k];
   const Estimate found = mean_of_origins(changes, *to, factor / (to->time - from->time));
-  if (found.blocks == 0) return without("the run is too short for an error");
+  if (found.blocks == 0) return no_coefficient("the run is too short for an error");
   return {found.mean, found.error, from->time, to->time, ""};
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "analysis/dynamics/correlation.h"
+#include "analysis/dynamics/diffusion.h"
 
 namespace vitrel {
 
@@ -17,25 +17,19 @@ struct ViscosityScale {
 };
 
 struct Viscosity {
-  struct Slope {
-    double value;        ///< η; NaN if there is none
-    double error;        ///< standard error
-    double from, to;     ///< time differences between which the slope was taken
-    std::string reason;  ///< why there is no value; else empty
-  };
-
   std::vector<double> lag;           ///< time differences t
   std::vector<std::size_t> origins;  ///< averaged over, for every lag
   Correlation moment;                ///< ⟨ΔG(t)²⟩/(2 V kT)
-  Slope shear;
+  DiffusionCoefficient shear;        ///< η, with the time differences of its slope
 };
 
 /// The shear viscosity η from the Helfand moments G_ab of the frames (edmd/momentum_flux.h), a ≠ b,
 ///
-///     ⟨[G_ab(t) − G_ab(0)]²⟩/(2 V kT) → η t + constant (helfand1960, in the form of alder1970 for collisions),
+///     ⟨[G_ab(t) − G_ab(0)]²⟩/(2 V kT) → η t + constant
 ///
-/// averaged over the elements `moments`, each with a value per frame, and over time origins. It is Green and Kubo's
-/// integral of the stress autocorrelation, without its noise from sampling, and exact for impulses.
+/// (helfand1960, in the form of alder1970 for collisions), averaged over the elements `moments`, each with a value per
+/// frame, and over time origins. It is Green and Kubo's integral of the stress autocorrelation, without its noise from
+/// sampling, and exact for impulses.
 ///
 /// 1. All frames are origins. The errors are those of CorrelationSum by blocks, and there is none at lags with fewer
 ///    than eight of these.

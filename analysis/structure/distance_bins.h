@@ -23,7 +23,7 @@ class DistanceBins {
   DistanceBins(double range, double step)
       // A quotient that rounding leaves just below a whole number is one.
       : step_(step), count_(static_cast<std::size_t>(range / step * (1 + 1e-12))) {}
-  /// Of pairs of particles: below distance_max and half the shortest side of the box.
+  /// Bins for the distances of pairs: below distance_max and half the shortest side of the box.
   template <int Dim>
   DistanceBins(const Configuration<Dim>& configuration, const PairCorrelationOptions& options)
       : DistanceBins(std::min(options.distance_max, 0.5 * configuration.box.lengths().minCoeff()),

@@ -190,8 +190,9 @@ which is the term k = 0 that the hydrodynamic sum over wave vectors leaves out, 
 {table(["φ", "N", "L", "Z", "D", "residual", "D/D_E", "from", "collisions"], rows)}
 
 Hydrodynamics predicts s = −{LATTICE_SUM} kT/(6π η) (Dünweg and Kremer 1993; Yeh and Hummer 2004). The viscosity η is measured in
-other runs, {len(SEEDS)} of {PARTICLES} spheres each, by `vitrel analyze --only viscosity` from the Helfand moments of the stress. η_E is the viscosity of the Enskog theory. The runs and the method
-have nothing in common with the displacements except the dynamics. Required: a ratio of the slopes within {SLOPE_TOLERANCE:.0%} of 1, and χ² below
+other runs, {len(SEEDS)} of {PARTICLES} spheres each, by `vitrel analyze --only viscosity` from the Helfand moments of the stress.
+η_E is the viscosity of the Enskog theory. The runs and the method have nothing in common with the displacements except the
+dynamics. Required: a ratio of the slopes within {SLOPE_TOLERANCE:.0%} of 1, and χ² below
 {" or ".join(f"{limit:g} ({degrees} degrees of freedom)" for degrees, limit in LARGEST_CHI_SQUARE.items())}; false-alarm rate of χ²: 0.1 % per row.
 
 {table(["φ", "D(∞)", "D(∞)/D_E", "χ²", "degrees of freedom", "s", "s, all sizes", "η", "η/η_E", "s, hydrodynamic", "ratio"], slopes)}

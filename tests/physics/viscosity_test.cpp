@@ -32,8 +32,8 @@ struct MomentRecorder : Observer<Dim> {
 
 /// η from a run that begins on a lattice; the stress decays in `relaxation_time`.
 template <int Dim>
-Viscosity::Slope measured_viscosity(Configuration<Dim> start, double relaxation_time,
-                                    double duration) {
+DiffusionCoefficient measured_viscosity(Configuration<Dim> start, double relaxation_time,
+                                        double duration) {
   draw_velocities(start, 5, Purpose::velocities, 0, Temperature::relative);
   RunState<Dim> state = begin_run(start, -10 * relaxation_time);
   MomentRecorder<Dim> recorder;
@@ -43,7 +43,7 @@ Viscosity::Slope measured_viscosity(Configuration<Dim> start, double relaxation_
       .shear;
 }
 
-void expect_viscosity(const Viscosity::Slope& found, double enskog, double theory) {
+void expect_viscosity(const DiffusionCoefficient& found, double enskog, double theory) {
   testing::Test::RecordProperty("eta over Enskog", std::to_string(found.value / enskog) + " +- " +
                                                        std::to_string(found.error / enskog));
   EXPECT_LT(found.error, 0.05 * enskog);
@@ -62,8 +62,8 @@ TEST(Viscosity, DisksAreAsViscousAsEnskogSays) {
   expect_viscosity(measured_viscosity(start, 38, 3e5), enskog, 0.03);
 }
 
-// Enskog with g of Carnahan and Starling and b ρ = 4 φ: η = 1.016 · 5/(16 σ²) √(m kT/π) [1/g + 0.8 b ρ + 0.761 (b ρ)² g]
-// (hansen2013). 125 spheres are less viscous by some per cent than a large system (3 %).
+// Enskog with g of Carnahan and Starling and b ρ = 4 φ (hansen2013):
+// η = 1.016 · 5/(16 σ²) √(m kT/π) [1/g + 0.8 b ρ + 0.761 (b ρ)² g]. 125 spheres are less viscous by some per cent than a large system (3 %).
 TEST(Viscosity, SpheresAreAsViscousAsEnskogSays) {
   const double phi = 0.2, diameter = 2, b = 4 * phi;
   const double g = (1 - phi / 2) / std::pow(1 - phi, 3);

@@ -104,7 +104,7 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
       {"rotational_diffusion_from", "time", {run.rotational_diffusion.from}, {}},
       {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}, {}}};
   if (run.motion && run.motion->viscosity) {
-    const Viscosity::Slope& viscosity = run.motion->viscosity->shear;
+    const DiffusionCoefficient& viscosity = run.motion->viscosity->shear;
     columns.push_back(single("viscosity", fmt::format("kT time/length^{}", run.motion->dimension),
                              viscosity.value, viscosity.error));
     columns.push_back({"viscosity_from", "time", {viscosity.from}, {}});
@@ -208,8 +208,9 @@ AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
   require_own_names(reader);
   require_orders_of_directors(reader, parameters.analysis);
   const TableChoice wanted(parameters.only);
-  const RunAnalysis run = naming(
-      file, [&] { return measure_run(trajectory, analysed.name(), parameters, wanted, progress); });
+  const RunAnalysis run = naming(file, [&] {
+    return run_analysis(trajectory, analysed.name(), parameters, wanted, progress);
+  });
   Results& results = analysed.results = results_of(run);
   append(results.tables, on_the_fly_tables(file));
   results.provenance = provenance_rows(reader.provenance());

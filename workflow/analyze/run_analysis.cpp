@@ -82,15 +82,11 @@ RunMotion measure_motion(TrajectoryFile<Dim>& trajectory, const Parameters& para
   return motion;
 }
 
-/// Of a mean squared displacement or rotation in so many dimensions.
+/// The coefficient of a mean squared displacement or rotation in this number of dimensions.
 DiffusionCoefficient long_time_diffusion(const Displacements& found, const Correlation& square,
                                          int dimension, const std::vector<double>& times) {
   const double duration = evenly_spaced(times) ? times.back() - times.front() : 0;
   return diffusion_coefficient({found.lag, square.value, square.error, duration}, dimension);
-}
-
-DiffusionCoefficient no_diffusion(const char* reason) {
-  return {unknown, unknown, unknown, unknown, reason};
 }
 
 /// NaN if the file does not say.
@@ -139,7 +135,8 @@ template <int Dim>
 std::optional<Viscosity> measure_viscosity(TrajectoryFile<Dim>& trajectory, const RunAnalysis& run,
                                            const TimeAxisOptions& axis) {
   const auto moments = helfand_moments(trajectory.reader());
-  if (moments.empty()) return std::nullopt;
+  // A file of another program may have moments without energies, and one particle has no temperature.
+  if (moments.empty() || run.energy.time.empty() || run.particles < 2) return std::nullopt;
   const Configuration<Dim>& state = trajectory.read(0);
   const double temperature = mean_temperature(run.energy, run.particles, run.rotations, Dim);
   return shear_viscosity(trajectory.times(), moments,
@@ -148,9 +145,9 @@ std::optional<Viscosity> measure_viscosity(TrajectoryFile<Dim>& trajectory, cons
 
 DiffusionCoefficient rotational_diffusion(const Displacements& found, std::size_t rotors,
                                           int dimension, const std::vector<double>& times) {
-  if (rotors == 0) return no_diffusion("no particle can turn");
-  if (!found.unknown_turns.empty()) return no_diffusion(found.unknown_turns.c_str());
-  // Of bodies of revolution ⟨|Δφ|²⟩ = 4 D_r t: they do not spin about their axes.
+  if (rotors == 0) return no_coefficient("no particle can turn");
+  if (!found.unknown_turns.empty()) return no_coefficient(found.unknown_turns);
+  // Bodies of revolution do not spin about their axes: ⟨|Δφ|²⟩ = 4 D_r t.
   const int rotations = dimension == 2 ? 1 : found.axes == 3 ? 3 : 2;
   return long_time_diffusion(found, found.groups.front().rotation, rotations, times);
 }
@@ -196,9 +193,9 @@ void describe_run(RunAnalysis& run, TrajectoryFile<Dim>& trajectory) {
 }  // namespace
 
 template <int Dim>
-RunAnalysis measure_run(TrajectoryFile<Dim>& trajectory, const std::string& name,
-                        const Parameters& parameters, const TableChoice& wanted,
-                        const AnalysisProgress& progress) {
+RunAnalysis run_analysis(TrajectoryFile<Dim>& trajectory, const std::string& name,
+                         const Parameters& parameters, const TableChoice& wanted,
+                         const AnalysisProgress& progress) {
   const TrajectoryReader& reader = trajectory.reader();
   const std::vector<double>& times = trajectory.times();
   RunAnalysis run{};
@@ -221,7 +218,7 @@ RunAnalysis measure_run(TrajectoryFile<Dim>& trajectory, const std::string& name
   if (wanted.has({"energies", "compressibility_factor", "summary", "relaxation", "viscosity"}))
     run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotations);
-  run.diffusion = run.rotational_diffusion = no_diffusion(run.obstacle.c_str());
+  run.diffusion = run.rotational_diffusion = no_coefficient(run.obstacle);
   if (!run.dynamics || !run.dynamics->displacements.parts.displacement) return run;
   const Displacements& found = run.dynamics->displacements;
   run.diffusion = long_time_diffusion(found, found.groups.front().translation, Dim, times);
@@ -233,9 +230,9 @@ RunAnalysis measure_run(TrajectoryFile<Dim>& trajectory, const std::string& name
   return run;
 }
 
-template RunAnalysis measure_run(TrajectoryFile<2>&, const std::string&, const Parameters&,
-                                 const TableChoice&, const AnalysisProgress&);
-template RunAnalysis measure_run(TrajectoryFile<3>&, const std::string&, const Parameters&,
-                                 const TableChoice&, const AnalysisProgress&);
+template RunAnalysis run_analysis(TrajectoryFile<2>&, const std::string&, const Parameters&,
+                                  const TableChoice&, const AnalysisProgress&);
+template RunAnalysis run_analysis(TrajectoryFile<3>&, const std::string&, const Parameters&,
+                                  const TableChoice&, const AnalysisProgress&);
 
 }  // namespace vitrel

@@ -28,10 +28,10 @@ struct RunAnalysis {
   std::optional<GlassRun> glass;
 };
 
-/// Of the run of this name, what the tables that are wanted need.
+/// Measures what the tables that are wanted need, in the run of this name.
 template <int Dim>
-RunAnalysis measure_run(TrajectoryFile<Dim>& trajectory, const std::string& name,
-                        const Parameters& parameters, const TableChoice& wanted,
-                        const AnalysisProgress& progress);
+RunAnalysis run_analysis(TrajectoryFile<Dim>& trajectory, const std::string& name,
+                         const Parameters& parameters, const TableChoice& wanted,
+                         const AnalysisProgress& progress);
 
 }  // namespace vitrel
