@@ -29,6 +29,9 @@ constexpr std::string_view name_of(GlassLaw law) {
 constexpr std::string_view name_of(EquilibrationVerdict verdict) {
   return verdict_names[static_cast<std::size_t>(verdict)];
 }
+constexpr std::string_view name_of(GlassVerdict verdict) {
+  return fit_verdict_names[static_cast<std::size_t>(verdict)];
+}
 constexpr std::string_view name_of(OrientationKind orientation) {
   return orientation_names[static_cast<std::size_t>(orientation)];
 }

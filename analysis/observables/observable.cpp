@@ -16,9 +16,10 @@
 namespace vitrel {
 namespace {
 
-Chart over_density(const char* heading, const char* symbol, const char* column,
-                   Chart::Scale scale = Chart::Scale::linear) {
-  return {.section = Chart::Section::density,
+/// Over the packing fraction, if the sweep does not say otherwise.
+Chart of_study(const char* heading, const char* symbol, const char* column,
+               Chart::Scale scale = Chart::Scale::linear) {
+  return {.section = Chart::Section::study,
           .heading = heading,
           .symbol = symbol,
           .curves = {{column, symbol}},
@@ -33,11 +34,27 @@ Observable summary_observable() {
       .table = "summary",
       .what =
           "One row: packing fraction, and averages over the run, of the compressibility factor, "
-          "energies, diffusion coefficients and the shear viscosity.",
-      .charts = {over_density("Diffusion", "D", "diffusion", over_decades),
-                 over_density("Rotational diffusion", "Dᵣ", "rotational_diffusion", over_decades),
-                 over_density("Shear viscosity", "η", "viscosity", over_decades),
-                 over_density("Compressibility factor", "Z = βP/ρ", "compressibility_factor")}};
+          "energies, diffusion coefficients and the shear viscosity; of a sweep a row for every "
+          "job, with relaxation times, what the preparation says of a state, and the cost.",
+      .charts = {
+          of_study("Relaxation of translation", "τα", "tau_translation", over_decades),
+          of_study("Relaxation of rotation", "τ₂", "tau_rotation", over_decades),
+          of_study("Diffusion", "D", "diffusion", over_decades),
+          of_study("Rotational diffusion", "Dᵣ", "rotational_diffusion", over_decades),
+          of_study("Shear viscosity", "η", "viscosity", over_decades),
+          of_study("Compressibility factor", "Z = βP/ρ", "compressibility_factor"),
+          of_study("Pressure of the prepared state", "βP/ρ", "reduced_pressure", over_decades),
+          of_study("Nematic order", "S", "nematic_order", Chart::Scale::from_zero),
+          of_study("Hexatic order", "ψ₆", "hexatic_order", Chart::Scale::from_zero),
+          of_study("Orientation ratio", "ρ = λmax/λmin", "orientation_ratio"),
+          of_study("Contacts", "contacts per particle", "contact_number"),
+          of_study("Early releases", "share of collisions", "early_releases_per_collision",
+                   over_decades),
+          of_study("Blocked rotations", "share of collisions", "blocked_rotations_per_collision",
+                   over_decades),
+          of_study("Computing time", "computing time", "wall_seconds", over_decades),
+          of_study("Speed of the simulation", "collisions per second",
+                   "collisions_per_second_with_output")}};
 }
 
 }  // namespace

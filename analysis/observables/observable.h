@@ -19,8 +19,8 @@ struct Curve {
 
 /// Curves of one table that belong together. Units are those of the columns.
 struct Chart {
-  /// The course of a run, or one number of every run of a sweep against its density.
-  enum class Section { motion, relaxation, structure, course, density };
+  /// The course of a run, or one number of every job of a sweep along what the sweep runs through.
+  enum class Section { motion, relaxation, structure, course, study };
   enum class Scale { linear, logarithmic, from_zero, decay, around_one };
   /// Horizontal lines that depend on the run.
   enum class Level { none, equipartition, mean };

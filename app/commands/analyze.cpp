@@ -51,12 +51,16 @@ int analyze_sweep(const AnalyzeOptions& options, const fs::path& folder) {
   require_place(output, sweep.files());
   remark_left_out(options.print, folder, sweep);
   ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));
-  const std::vector<AnalysedRun> analyses = analysed_jobs(sweep, choice, shown_on(display));
+  const AnalysedSweep analysed = analysed_sweep(sweep, choice, shown_on(display));
   display.clear();
   Json runs = Json::array();
-  for (const AnalysedRun& run : analyses) runs.push_back(analysis_summary(run));
-  const GlassStudy study = glass_study(analyses);
-  Results results = results_of_sweep(analyses, study);
+  for (std::size_t k = 0; k < analysed.runs.size(); ++k) {
+    Json& run = runs.emplace_back(analysis_summary(analysed.runs[k]));
+    for (const auto& [key, value] : analysed.values[k])
+      run["values"][key] = parse_json(value, key);
+  }
+  const GlassStudy study = glass_study(analysed);
+  Results results = results_of_sweep(analysed, study);
   if (!sweep.unfinished.empty()) results.provenance.emplace_back("left_out", sweep.left_out());
   write_all(output, results);
   Json summary = {{"output", output.string()}};

@@ -31,6 +31,10 @@ struct Field {
   std::string sentence;         ///< what the field means
   Bounds bounds = {};           ///< of every number of the field
   std::string former_key = {};  ///< of earlier versions, still read; "" for none
+  std::string symbol = {};      ///< "φ", for axes of charts; "" for none
+
+  /// The symbol, or else the key with blanks.
+  std::string short_name() const;
 };
 
 /// Dotted keys and the values each of them takes, as TOML text ("0.5", "\"brownian\"").
@@ -155,6 +159,10 @@ struct BadValue : UserError {
 /// and what would be right; so does a BadValue thrown by `validate`, which runs last.
 void read_parameters(const TomlNode& root, const FieldVisitor::Inside& describe,
                      const std::function<void()>& validate);
+
+/// The field with this dotted key, which counts the entries of lists ("species.0.mass"), whether or not it is given; nothing
+/// if there is none. An entry of an array is part of the array's field.
+std::optional<Field> find_field(const FieldVisitor::Inside& describe, const std::string& dotted_key);
 
 /// Throws BadValue for the first number outside the bounds of its field.
 void check_bounds(const FieldVisitor::Inside& describe);

@@ -62,18 +62,7 @@ TomlNode convert(const toml::node& node, const std::string& name) {
   return result;
 }
 
-std::vector<std::string> split(std::string_view path) {
-  std::vector<std::string> parts(1);
-  for (const char c : path) {
-    if (c == '.')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
-}
-
-std::optional<std::size_t> as_index(const std::string& part) {
+std::optional<std::size_t> as_index(std::string_view part) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
   if (part.empty() || error != std::errc() || end != part.data() + part.size()) return std::nullopt;
@@ -123,7 +112,7 @@ bool begins_with_key(std::string_view path, std::string_view key) {
 // of a table may have dots itself: "system.seed" = 1.
 std::pair<const TomlNode*, std::size_t> enter(const TomlNode& node, std::string_view path) {
   if (const auto* array = node.get<TomlNode::Array>()) {
-    const std::string part(path.substr(0, path.find('.')));
+    const std::string_view part = path.substr(0, path.find('.'));
     const std::optional<std::size_t> index = as_index(part);
     if (index && *index < array->size()) return {&(*array)[*index], part.size()};
   }
@@ -154,6 +143,13 @@ TomlNode& descend(TomlNode& parent, const std::string& part, const std::string& 
     if (entry.key == part) return entry.node;
   table->push_back({part, option, made});
   return table->back().node;
+}
+
+/// The first part of a dotted key; of an entry that is there all of its key, which may have dots itself ("system.seed" = 1).
+std::string first_key(const TomlNode& parent, std::string_view path) {
+  if (const auto [child, length] = enter(parent, path); child)
+    return std::string(path.substr(0, length));
+  return std::string(path.substr(0, path.find('.')));
 }
 
 }  // namespace
@@ -193,18 +189,20 @@ void apply_override(TomlNode& root, std::string_view assignment, const std::stri
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || equals == 0)
     throw UserError(option + ": key=value is expected, for example --set dynamics.duration=10");
-  const std::vector<std::string> parts = split(assignment.substr(0, equals));
+  const std::string_view key = assignment.substr(0, equals);
   TomlNode* node = &root;
   std::string walked;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (parts[k].empty())
-      throw UserError(
-          fmt::format("{}: the key '{}' has an empty part", option, assignment.substr(0, equals)));
+  for (std::size_t begin = 0; begin <= key.size();) {
+    const std::string part = first_key(*node, key.substr(begin));
+    if (part.empty())
+      throw UserError(fmt::format("{}: the key '{}' has an empty part", option, key));
+    begin += part.size() + 1;
+    const std::string_view rest = key.substr(std::min(begin, key.size()));
     TomlNode made;
     made.where = option;
-    if (k + 1 < parts.size() && as_index(parts[k + 1])) made.value = TomlNode::Array();
-    node = &descend(*node, parts[k], walked, made, option);
-    walked += (walked.empty() ? "" : ".") + parts[k];
+    if (as_index(rest.substr(0, rest.find('.')))) made.value = TomlNode::Array();
+    node = &descend(*node, part, walked, made, option);
+    walked += (walked.empty() ? "" : ".") + part;
   }
   *node = override_value(std::string(assignment.substr(equals + 1)), option);
 }

@@ -63,18 +63,18 @@ py::tuple analyze_file(const std::filesystem::path& file,
 /// The same of a sweep, and the files of its finished jobs.
 py::tuple analyze_sweep(const std::filesystem::path& folder,
                         const std::vector<std::string>& overrides) {
-  std::vector<AnalysedRun> runs;
+  AnalysedSweep analysed;
   GlassStudy study;
   const SweepProgress sweep = sweep_progress(folder);
   {
     const Released released;
     Interruption interruption;
-    runs = analysed_jobs(sweep, choice_of(overrides), until(interruption));
-    study = glass_study(runs);
+    analysed = analysed_sweep(sweep, choice_of(overrides), until(interruption));
+    study = glass_study(analysed);
   }
   std::vector<std::filesystem::path> files;
-  for (const AnalysedRun& run : runs) files.push_back(run.file);
-  const Results results = results_of_sweep(runs, study);
+  for (const AnalysedRun& run : analysed.runs) files.push_back(run.file);
+  const Results results = results_of_sweep(analysed, study);
   return py::make_tuple(glass_summary(study).dump(), tables_of(results), results.provenance, files,
                         sweep.unfinished);
 }

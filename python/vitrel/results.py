@@ -46,6 +46,11 @@ class Column:
     def __repr__(self) -> str:
         return f"<Column {self.name} / {self.unit}: {self.value!r}>"
 
+    @property
+    def texts(self) -> List[Optional[str]]:
+        """What the codes stand for, None where a code is not known."""
+        return [self.labels[int(code)] if code == code else None for code in self.value]
+
     def to_pandas(self):
         """A pandas.Series over the first column of the table."""
         return self.table.to_pandas().set_index(next(iter(self.table)))[self.name]
@@ -98,7 +103,7 @@ class Table(_ByName[Column]):
 
         data = {}
         for column in self.values():
-            data[column.name] = ([column.labels[int(code)] for code in column.value] if column.labels else column.value)
+            data[column.name] = column.texts if column.labels else column.value
             if column.error is not None:
                 data[f"{column.name}_error"] = column.error
         return pandas.DataFrame(data)
@@ -129,6 +134,11 @@ class Table(_ByName[Column]):
             chart = Chart(self, {**chart.description, "x": x, "xSymbol": x, "logX": False}, chart.labels)
         return chart.plot(axes, columns, **style)
 
+    def _study(self):
+        """Of jobs of a sweep: the column that charts run along, and those that tell curves apart."""
+        provenance = self.results.provenance if self.results else {}
+        return provenance.get("axis", "packing_fraction"), [name for name in provenance.get("series", "").split(",") if name]
+
 
 class Chart:
     """Curves of one table that belong together, as the report page shows them.
@@ -156,18 +166,30 @@ class Chart:
         axes = _axes(axes)
         x = self.table[self.description["x"]]
         columns = columns or list(self.labels)
-        for name in columns:
+        curves = [(name, *curve) for name in columns for curve in self._curves(name)]
+        for name, label, rows in curves:
             column = self.table[name]
-            axes.errorbar(x.value, column.value, yerr=column.error, label=self.labels.get(name, name),
+            axes.errorbar(numpy.asarray(x.texts if x.labels else x.value)[rows], column.value[rows],
+                          yerr=None if column.error is None else column.error[rows], label=label,
                           **{"marker": "o", "markersize": 3, "linewidth": 1, **style})
         for level in self.description.get("levels", []):
             axes.axhline(level, color="0.6", linewidth=0.8, zorder=0)
         axes.set(xlabel=self._label(self.description["xSymbol"], x.unit),
                  ylabel=self._label(self.description["symbol"], self.table[columns[0]].unit))
         self._scale(axes)
-        if len(columns) > 1:
+        if len(curves) > 1:
             axes.legend(frameon=False)
         return axes
+
+    def _curves(self, name):
+        """Labels and rows: one curve, or of a sweep one for every combination of what tells curves apart."""
+        series = self.table._study()[1] if self.description.get("section") == "study" else []
+        rows = {}
+        for row in range(len(self.table[name])):
+            texts = [f"{key} = {column.texts[row] if column.labels else format(column.value[row], 'g')}"
+                     for key, column in ((key, self.table[key]) for key in series)]
+            rows.setdefault(", ".join(texts), []).append(row)
+        return [(label or self.labels.get(name, name), chosen) for label, chosen in rows.items()]
 
     def _label(self, symbol, unit):
         unit = _UNITS[self.table.dimension].get(unit, unit)
@@ -190,6 +212,9 @@ def charts(table, column=None):
         if not _is_of(table.name, description):
             continue
         labels = _labels(table, description)
+        if description["section"] == "study":
+            axis = table._study()[0]
+            description = {**description, "x": axis, "xSymbol": axis.replace("_", " ")}
         if labels and description["x"] in table and (column is None or column in labels):
             found.append(Chart(table, description, labels))
     return found
@@ -201,8 +226,10 @@ def _descriptions(dimension):
 
 
 def _is_of(table, description):
-    """Charts over the density show one number of every run of a sweep."""
-    name = "runs" if description["section"] == "density" else description["table"]
+    """Charts of studies show one number of every job of a sweep, or its average over seeds."""
+    if description["section"] == "study":
+        return table in ("runs", "seeds")
+    name = description["table"]
     return table.startswith(name + "_") if description["hasGroups"] else table == name
 
 
@@ -261,8 +288,8 @@ class Results(_ByName[Table]):
 
     @property
     def charts(self) -> List[Chart]:
-        """All charts of the report page for which there are tables."""
-        return [chart for table in self.values() for chart in charts(table)]
+        """All charts of the report page for which there are tables; of a sweep through seeds those of the averages."""
+        return [chart for table in self.values() if not (table.name == "runs" and "seeds" in self) for chart in charts(table)]
 
     def find(self, name: str):
         """The table of this name, or else the first column of this name in any table; KeyError if there is neither."""

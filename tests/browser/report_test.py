@@ -330,11 +330,11 @@ class Page(PageTest):
         self.assertRegex(readout, r"^q = 2\.4:  t = 0\.5,")
 
     def glass_legend(self, chart):
-        return self.browser.evaluate(f"""[...document.querySelectorAll('#over-density .chart:nth-child({chart}) .legend button')]
+        return self.browser.evaluate(f"""[...document.querySelectorAll('#study .chart:nth-child({chart}) .legend button')]
           .map((button) => [button.textContent, button.querySelector('i').className])""")
 
     def choose_law(self, law):
-        self.browser.evaluate(f"""(() => {{ const select = document.querySelector('#over-density select');
+        self.browser.evaluate(f"""(() => {{ const select = document.querySelector('#study select');
           select.value = {law}; select.dispatchEvent(new Event('change')); }})()""")
         self.browser.settle()
 
@@ -360,24 +360,24 @@ class Page(PageTest):
         # Vogel-Fulcher is refused for rotation: no curve, and no φ_c.
         self.choose_law(1)
         self.assertEqual(self.glass_legend(1), points + [["translation, Vogel–Fulcher", "line"]])
-        self.assertEqual([text for text, *_ in self.canvas_texts("#over-density .chart") if "φc" in text], ["φc translation = 0.850"])
+        self.assertEqual([text for text, *_ in self.canvas_texts("#study .chart") if "φc" in text], ["φc translation = 0.850"])
 
     def test_transition_densities_stand_where_they_are(self):
         self.open("sweep.html")
-        texts = self.canvas_texts("#over-density .chart")
+        texts = self.canvas_texts("#study .chart")
         marks = [text for text in texts if "φc" in text[0]]
         self.assertEqual([text for text, *_ in marks],
                          ["φc translation = 0.800", "φc rotation > 0.795", "φc rotation in the nematic > 0.785"])
         # Labels end left of their lines, 0.8, 0.795 and 0.785 on an axis from 0.6 − m to 0.805 + m, m = 6 % of 0.205.
-        width = self.browser.evaluate("document.querySelector('#over-density .u-over').clientWidth")
+        width = self.browser.evaluate("document.querySelector('#study .u-over').clientWidth")
         for (_, x, _), density in zip(marks[1:], (0.795, 0.785)):
             self.assertAlmostEqual((marks[0][1] - x) / width, (0.8 - density) / (1.12 * 0.205), delta=1.5 / width)
 
     def glass_readings(self, curve):
         """All (φ, τ) of a curve of the chart, read by arrow keys."""
-        self.focus("#over-density .plot")
+        self.focus("#study .plot")
         self.browser.press("ArrowRight", 39, settle=False)
-        readout = "document.querySelector('#over-density .readout').textContent"
+        readout = "document.querySelector('#study .readout').textContent"
         for _ in range(12):
             if self.browser.evaluate(readout).startswith(curve + ":"):
                 break
@@ -425,7 +425,7 @@ class Page(PageTest):
     def test_logarithmic_axes_have_three_labels_or_more(self):
         self.open("sweep.html")
         motion, times, diffusion = [[(text, y) for text, _, y in self.canvas_texts(chart)]
-                                    for chart in ("#motion", "#over-density .chart", "#over-density .chart:nth-child(2)")]
+                                    for chart in ("#motion", "#study .chart", "#study .chart:nth-child(2)")]
         # Times from 0.5 to 237 and mean squared displacements from 0.08 to 214 …
         self.assertEqual(sorted(text for text, _ in motion), sorted(["1", "10", "100", "0.1", "1", "10", "100", "∝ t"]))
         # … and relaxation times from 2.5 to 617, on an axis that begins at 2.
@@ -433,7 +433,7 @@ class Page(PageTest):
         # Diffusion coefficients from 0.002 to 0.006, on an axis from 0.8 to 1.25 times that.
         labels = diffusion[-6:]
         self.assertEqual([text for text, _ in labels], ["0.002", "0.003", "0.004", "0.005", "0.006", "0.007"])
-        height = self.browser.evaluate("document.querySelector('#over-density .chart:nth-child(2) .u-over').clientHeight")
+        height = self.browser.evaluate("document.querySelector('#study .chart:nth-child(2) .u-over').clientHeight")
         decades = math.log10(1.25 * 0.006 / (0.8 * 0.002))
         self.assertAlmostEqual((labels[0][1] - labels[-1][1]) / height, math.log10(3.5) / decades, delta=2 / height)
 

@@ -97,12 +97,13 @@ ReportData one_run() {
   std::vector<Table>& tables = results.tables;
   tables.push_back({"relaxation",
                     "",
-                    {report_example::plain("verdict", "1", {2}),
-                     report_example::plain("verdict_translation", "1", {0})}});
+                    {report_example::codes("verdict", verdict_names, {2}),
+                     report_example::codes("verdict_translation", verdict_names, {0})}});
+  static constexpr std::array<std::string_view, 2> times = {"self scattering", "orientation"};
   tables.push_back({"relaxation_times",
                     "",
                     {report_example::plain("group", "1", {0, 0, 1}),
-                     report_example::plain("kind", "1", {0, 1, 0}),
+                     report_example::codes("kind", times, {0, 1, 0}),
                      report_example::plain("parameter", "1/length or 1", {2.4, 2, 2.4}),
                      {"tau", "time", {10, unknown, 11}, {0.5, unknown, 0.5}},
                      report_example::plain("least", "time", {unknown, 250, unknown}),
@@ -196,6 +197,7 @@ ReportData spheres_run() {
 ReportData two_runs() {
   ReportData data = report_example::sweep(2, 1);
   data.runs.pop_back();
+  data.study.tables.pop_back();
   for (std::size_t k = 0; k < 2; ++k) {
     ReportRun& run = data.runs[k];
     run.results.tables = monotonous_series();

@@ -23,8 +23,19 @@ def test_results_are_one_table(sweep):
 
 def test_charts_show_one_number_of_every_run(sweep):
     chart = next(chart for chart in sweep.results.charts if "compressibility_factor" in chart.labels)
-    line = chart.plot().containers[0].lines[0]
-    assert len(line.get_xdata()) == 4
+    assert list(chart.plot().containers[0].lines[0].get_xdata().round(6)) == [0.3, 0.4]
+    lines = sweep.results["runs"].plot("compressibility_factor").containers[0].lines
+    assert len(lines[0].get_xdata()) == 4
+
+
+def test_curves_are_told_apart_by_what_else_the_sweep_runs_through(tmp_path, vitrel_program):
+    grid = {"species.0.aspect_ratio": [2, 4], "system.packing_fraction": [0.2, 0.3, 0.4], "dynamics.kind": ["newtonian"]}
+    results = vitrel.sweep(output=tmp_path / "runs", grid=grid, program=vitrel_program, prepare__quality_sweeps=0,
+                           **{**SMALL, "aspect_ratio": None}).results
+    axes = results["runs"].plot("compressibility_factor")
+    assert [container.get_label() for container in axes.containers] == ["species_0_aspect_ratio = 2", "species_0_aspect_ratio = 4"]
+    assert [len(container.lines[0].get_xdata()) for container in axes.containers] == [3, 3]
+    assert list(results["runs"].to_pandas()["dynamics_kind"]) == ["newtonian"] * 6
 
 
 def test_fits_and_remarks_are_in_the_summary(sweep):

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "analysis/glass/glass_names.h"
 #include "analysis/structure/order.h"
 #include "analysis/trajectory.h"
 #include "core/special_values.h"
@@ -77,6 +82,13 @@ inline Column single(const std::string& name, double value, double error) {
   return {name, "1", {value}, {error}};
 }
 
+/// Codes, and what they stand for.
+template <std::size_t N>
+Column codes(const char* name, const std::array<std::string_view, N>& labels,
+             std::vector<double> value) {
+  return {name, "1", std::move(value), {}, {labels.begin(), labels.end()}};
+}
+
 inline Table summary(double phi) {
   return {"summary",
           "",
@@ -85,7 +97,8 @@ inline Table summary(double phi) {
            plain("collisions", "1", {123'456}), plain("duration", "time", {250}),
            single("compressibility_factor", 4.4921, 0.0312), single("translational_energy", 1, 0),
            single("rotational_energy", 0.5, 0.001), single("diffusion", 0.02 * (0.8 - phi), 0.0002),
-           single("rotational_diffusion", unknown, unknown)}};
+           single("rotational_diffusion", unknown, unknown),
+           plain("collisions_per_second_with_output", "1/s", {300'000})}};
 }
 
 /// Brownian particles of relaxation time τ, as far as anything can be made of that.
@@ -189,8 +202,8 @@ inline ReportRun run(double phi, MemoryTrajectory2 trajectory) {
   ReportRun run;
   run.name = "run <1>";
   run.dynamics = "Brownian, step 0.1";
+  run.label = fmt::format("φ = {:.2f}", phi);
   run.packing_fraction = phi;
-  run.collisions_per_second = 300'000;
   std::vector<Table>& tables = run.results.tables;
   const auto add = [&tables](const std::vector<Table>& more) {
     tables.insert(tables.end(), more.begin(), more.end());
@@ -224,13 +237,14 @@ inline Table relaxation_table() {
       "relaxation",
       "",
       {plain("packing_fraction", "1", phi), plain("seed", "1", seed),
-       plain("duration", "time", constant(phi.size(), 2500)), plain("verdict", "1", verdict),
-       plain("verdict_translation", "1", verdict), plain("wave_number", "1/length", wave_number),
+       plain("duration", "time", constant(phi.size(), 2500)),
+       codes("verdict", verdict_names, verdict), codes("verdict_translation", verdict_names, verdict),
+       plain("wave_number", "1/length", wave_number),
        column("tau_translation", "time", phi, relaxation_time),
        column("tau_rotation", "time", phi, rotation),
        column("nematic_order", "1", phi, [](double x) { return x < 0.67 ? 0.1 : 0.6 + x - 0.67; }),
        plain("nematic_by_chance", "1", constant(phi.size(), 0.04)), plain("plateau", "1", plateau),
-       plain("orientation", "1", orientation)}};
+       codes("orientation", orientation_names, orientation)}};
 }
 
 /// Of translation both laws are found, of rotation there is a bound or nothing; both laws agree with the
@@ -239,9 +253,9 @@ inline Table fit_table() {
   const double vogel_fulcher = std::log(relaxation_time(0.66)) - 0.6 * 0.66 / (0.85 - 0.66);
   return {"glass_fit",
           "",
-          {plain("kind", "1", {0, 0, 1, 1, 2}),
-           plain("law", "1", {0, 1, 0, 1, 0}),
-           plain("verdict", "1", {0, 0, 1, 2, 1}),
+          {codes("kind", kind_names, {0, 0, 1, 1, 2}),
+           codes("law", law_names, {0, 1, 0, 1, 0}),
+           codes("verdict", fit_verdict_names, {0, 0, 1, 2, 1}),
            {"phi_c",
             "1",
             {0.8, 0.85, unknown, unknown, unknown},
@@ -270,13 +284,34 @@ inline Results study() {
            {"note_2", "rotation, tau_2, Vogel-Fulcher: no phi_c, chi^2 <is> too large"}}};
 }
 
+/// The summaries of the runs below each other.
+inline Table jobs_table(const std::vector<ReportRun>& runs) {
+  Table jobs = *runs.front().results.find("summary");
+  jobs.name = "runs";
+  for (std::size_t k = 1; k < runs.size(); ++k)
+    for (Column& column : jobs.columns) {
+      const Column& more = *runs[k].results.find("summary")->find(column.name);
+      column.value.push_back(more.value.front());
+      if (!more.error.empty()) column.error.push_back(more.error.front());
+    }
+  return jobs;
+}
+
+/// The same runs, or others, as a sweep.
+inline void set_runs(ReportData& data, std::vector<ReportRun> runs) {
+  data.runs = std::move(runs);
+  std::erase_if(data.study.tables, [](const Table& table) { return table.name == "runs"; });
+  data.study.tables.push_back(jobs_table(data.runs));
+}
+
 /// A sweep of three densities.
 inline ReportData sweep(std::size_t n, std::size_t frames) {
   ReportData data;
   data.title = "Ellipses & <disks>";
   data.subtitle = "N = " + std::to_string(n * n);
-  for (const double phi : {0.5, 0.6, 0.7}) data.runs.push_back(run(phi, lattice(n, frames)));
   data.study = study();
+  set_runs(data, {run(0.5, lattice(n, frames)), run(0.6, lattice(n, frames)),
+                  run(0.7, lattice(n, frames))});
   data.parameters = "[system]\nname = \"</script><b>\"\n";
   data.provenance = {{"version", "0.1.0"}, {"command", "vitrel run \"a\" > b"}};
   return data;

@@ -42,7 +42,7 @@ ReportData run_of(const std::string& dynamics, double exponent, double last = 10
         {{"rotational_energy", 0}, {"translational_energy", 1.5 * particles * temperature}});
   }
   writer.close();
-  ReportData data = report_data({analyze_run(file, {})});
+  ReportData data = report_data(analyze_run(file, {}));
   fs::remove(file);
   return data;
 }

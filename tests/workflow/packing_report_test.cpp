@@ -153,7 +153,7 @@ TEST_F(PackingFile, OfARunHasThePageOfARun) {
         {{"rotational_energy", n}, {"translational_energy", 1.5 * (n - 1)}, {"virial", 6 * n * k}});
   }
   writer.close();
-  const ReportData data = report_data({analyze_run(file(), {})});
+  const ReportData data = report_data(analyze_run(file(), {}));
   EXPECT_EQ(data.title, "packing: run of 216 ellipsoids, 2 : 1 : 1");
   EXPECT_EQ(data.subtitle, "φ = 0.1");
   ASSERT_EQ(data.runs.size(), 1u);

@@ -72,7 +72,7 @@ TEST(ReportPage, TextFromOutsideStaysText) {
 
 TEST(ReportPage, TableHasOneRowPerRunInTheirOrder) {
   ReportData data = sweep(2, 1);
-  std::swap(data.runs.front(), data.runs.back());
+  report_example::set_runs(data, {data.runs[2], data.runs[1], data.runs[0]});
   const std::string page = report_page(data);
   const std::size_t table = page.find("Table of runs</h2>");
   const std::size_t low = page.find("<th scope=\"row\">0.50</th>", table);
@@ -84,8 +84,9 @@ TEST(ReportPage, TableHasOneRowPerRunInTheirOrder) {
   EXPECT_EQ(count(page, "<td>0.5000 ± 0.0010</td>"), 3u);
   EXPECT_EQ(count(page, "<td>123\u202f456</td>"), 3u);
   EXPECT_EQ(count(page, "<td>300\u202f000</td>"), 3u);
-  // The rotational diffusion coefficients are not known.
-  EXPECT_EQ(count(page.substr(table), "<td>–</td>"), 3u);
+  // The rotational diffusion coefficients are not known, and have no column.
+  EXPECT_EQ(count(page.substr(table), "<th scope=\"col\">D<sub>r</sub></th>"), 0u);
+  EXPECT_EQ(count(page.substr(table), "<th scope=\"col\">D</th>"), 1u);
 }
 
 TEST(ReportPage, TableOfFitsGivesValuesBoundsAndDashes) {
@@ -162,7 +163,10 @@ TEST(ReportPage, CarriesTheTables) {
   const nlohmann::json& first = data["runs"][0];
   EXPECT_EQ(first["label"], "φ = 0.50");
   EXPECT_EQ(first["dynamics"], "Brownian, step 0.1");
-  EXPECT_EQ(first["collisionsPerSecond"], 300'000);
+  EXPECT_EQ(data["study"]["jobs"]["columns"]["collisions_per_second_with_output"]["value"],
+            nlohmann::json({300'000, 300'000, 300'000}));
+  EXPECT_EQ(data["study"]["axes"],
+            nlohmann::json::array({{{"column", "packing_fraction"}, {"symbol", "φ"}}}));
   // 500 times over 2.7 decades at 20 a decade: the first ones all, then thinned.
   const nlohmann::json& decay = first["tables"]["susceptibility"]["columns"];
   EXPECT_EQ(decay["time"]["value"][1], 1);
@@ -189,7 +193,7 @@ ReportData many_runs(std::size_t runs) {
   for (const char* group : {"C", "D", "E", "F"})
     for (Table& table : report_example::correlations(10, group))
       run.results.tables.push_back(std::move(table));
-  data.runs.assign(runs, run);
+  report_example::set_runs(data, std::vector(runs, run));
   return data;
 }
 
@@ -208,7 +212,8 @@ TEST(ReportPage, TablesOfManyRunsAreThinnedUntilThePageHasTwoMegabytes) {
   EXPECT_LT(rows_of(thinned, "energies", "time"), rows_of(all, "energies", "time"));
   EXPECT_LT(rows_of(thinned, "displacements_A", "time"), rows_of(all, "displacements_A", "time"));
   // The study is not thinned.
-  EXPECT_EQ(thinned["study"], all["study"]);
+  EXPECT_EQ(thinned["study"]["relaxation"], all["study"]["relaxation"]);
+  EXPECT_EQ(thinned["study"]["jobs"]["columns"]["packing_fraction"]["value"].size(), 20u);
 }
 
 TEST(ReportPage, TablesOfManyRunsKeepFiveRowsADecade) {
@@ -230,18 +235,22 @@ TEST(ReportPage, TablesThatItDoesNotShowStayOut) {
   EXPECT_EQ(report_page(data).size(), size);
 }
 
-TEST(ReportPage, RunsOfEqualDensityAreToldApartByWhatDiffersInTheirNames) {
+TEST(ReportPage, SeveralAxesLeadTheTableAndNameTheRuns) {
   ReportData data = sweep(2, 1);
-  for (ReportRun& run : data.runs) run.packing_fraction = 0.5;
-  data.runs[0].name = "packing_fraction-0.5_seed-1";
-  data.runs[1].name = "packing_fraction-0.5_seed-12";
-  nlohmann::json runs = embedded_data(report_page(data))["runs"];
-  EXPECT_EQ(runs[0]["label"], "φ = 0.50 (packing_fraction-0.5_seed-1)");
-  EXPECT_EQ(runs[2]["label"], "φ = 0.50 (run <1>)");
-  data.runs.pop_back();
-  runs = embedded_data(report_page(data))["runs"];
-  EXPECT_EQ(runs[0]["label"], "φ = 0.50 (seed-1)");
-  EXPECT_EQ(runs[1]["label"], "φ = 0.50 (seed-12)");
+  Table& jobs = data.study.tables.back();
+  jobs.columns.push_back(report_example::plain("species_0_aspect_ratio", "1", {2, 2, 4}));
+  data.axes = {{"species_0_aspect_ratio", "κ", "aspect ratio"},
+               {"packing_fraction", "φ", "packing fraction"}};
+  Table& relaxation = data.study.tables.front();
+  relaxation.columns.push_back(
+      {"run", "1", report_example::constant(relaxation.rows(), 0), {}, {"run <1>"}});
+  for (ReportRun& run : data.runs) run.label = "κ = 2, φ < 1";
+  const std::string page = report_page(data);
+  EXPECT_EQ(count(page, "<tr><th scope=\"col\">κ</th><th scope=\"col\">φ</th><th"), 1u);
+  EXPECT_EQ(count(page, "<tr><th scope=\"row\">4</th><td>0.70</td>"), 1u);
+  EXPECT_EQ(count(page, "<th scope=\"row\">κ = 2, φ &lt; 1</th><td>1</td>"), 9u);
+  EXPECT_EQ(count(page, ">Against the packing fraction</h2>"), 1u);
+  EXPECT_EQ(embedded_data(page)["study"]["axes"].size(), 2u);
 }
 
 TEST(ReportPage, BoundsThatAreNotKnownAreDashes) {
@@ -253,6 +262,14 @@ TEST(ReportPage, BoundsThatAreNotKnownAreDashes) {
   EXPECT_EQ(
       count(page, "<th scope=\"row\">rotation, τ<sub>2</sub></th><td>power law</td><td>–</td>"),
       1u);
+}
+
+/// As the table relaxation_times names them.
+Column kinds_of_times(std::vector<double> kinds) {
+  static constexpr std::array<std::string_view, 5> names = {
+      "self scattering", "orientation", "orientation of the middle axis",
+      "orientation of the shortest axis", "self scattering relative to the cage"};
+  return report_example::codes("kind", names, std::move(kinds));
 }
 
 /// The page of one run with these results, from the heading of its verdict on.
@@ -270,7 +287,7 @@ TEST(ReportPage, RunsThatCannotBeJudgedSayWhy) {
   const Table times{
       "relaxation_times",
       "",
-      {report_example::plain("group", "1", {0, 1}), report_example::plain("kind", "1", {0, 0}),
+      {report_example::plain("group", "1", {0, 1}), kinds_of_times({0, 0}),
        report_example::plain("parameter", "1/length or 1", {2.4, 2.4}),
        report_example::plain("tau", "time", {unknown, 5}),
        report_example::plain("least", "time", {unknown, unknown}),
@@ -287,7 +304,7 @@ TEST(ReportPage, RelaxationTimesRelativeToTheCageAreThoseOfScattering) {
   const std::string result = result_of(
       {{{"relaxation_times",
          "",
-         {report_example::plain("group", "1", {0}), report_example::plain("kind", "1", {4}),
+         {report_example::plain("group", "1", {0}), kinds_of_times({4}),
           report_example::plain("parameter", "1/length", {2.4}),
           report_example::plain("tau", "time", {5})}}},
        {}});
@@ -299,7 +316,7 @@ TEST(ReportPage, RelaxationTimesOfFurtherAxesNameThem) {
   const std::string result = result_of({{{"relaxation_times",
                                           "",
                                           {report_example::plain("group", "1", {0, 0, 0}),
-                                           report_example::plain("kind", "1", {1, 2, 3}),
+                                           kinds_of_times({1, 2, 3}),
                                            report_example::plain("parameter", "1", {2, 2, 2}),
                                            report_example::plain("tau", "time", {5, 4, 3})}}},
                                         {}});
@@ -312,8 +329,8 @@ TEST(ReportPage, OrientationsOfANematicAreSeenFromTheDirector) {
   const auto result = [](double tau) {
     return result_of({{{"relaxation",
                         "",
-                        {report_example::plain("verdict", "1", {0}),
-                         report_example::plain("verdict_translation", "1", {0}),
+                        {report_example::codes("verdict", verdict_names, {0}),
+                         report_example::codes("verdict_translation", verdict_names, {0}),
                          report_example::plain("plateau", "1", {0.4}),
                          {"tau_rotation", "time", {tau}, {0.5}}}}},
                       {}});
@@ -392,7 +409,8 @@ TEST(ReportPage, WhatIsNotKnownIsADash) {
   data.runs.resize(1);
   data.runs[0].name = "empty";
   const std::string page = report_page(data);
-  EXPECT_EQ(count(page, "<td>–</td>"), 9u);
+  EXPECT_EQ(count(page, "{{"), 0u);
+  EXPECT_EQ(count(page, "<th scope=\"row\">"), 0u);
   EXPECT_TRUE(embedded_data(page)["runs"][0]["tables"].empty());
   EXPECT_TRUE(embedded_data(page)["runs"][0]["movie"].is_null());
 }

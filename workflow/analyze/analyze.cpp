@@ -110,6 +110,11 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
     columns.push_back({"viscosity_from", "time", {viscosity.from}, {}});
     columns.push_back({"viscosity_to", "time", {viscosity.to}, {}});
   }
+  for (const Table& table : run.structure.tables)
+    if (const Column* hexatic = table.name == "order" ? table.find("hexatic") : nullptr) {
+      const Estimate mean = time_average(table.find("time")->value, hexatic->value);
+      columns.push_back(single("hexatic_order", "1", mean.mean, mean.error));
+    }
   columns.insert(columns.end(), run.state.begin(), run.state.end());
   return columns;
 }
@@ -259,7 +264,9 @@ ImportReport import_report(const Results& results) {
 }
 
 std::string AnalysedRun::name() const {
-  const bool in_job_folder = file.filename() == "run.h5" && file.has_parent_path();
+  const bool in_job_folder = file.has_parent_path() &&
+                             (file.filename() == "run.h5" ||
+                              std::filesystem::exists(file.parent_path() / "params.json"));
   if (!in_job_folder) return file.stem().string();
   return std::filesystem::absolute(file).lexically_normal().parent_path().filename().string();
 }

@@ -59,7 +59,8 @@ Table relaxation_table(const GlassStudy& study) {
       "equilibrated runs enter the fits, of translation by the latter. nematic_order: S, beside "
       "that of as many rotors without order; plateau: of L_2 by order, 0 if not nematic; "
       "orientation: what becomes of it.",
-      {{"packing_fraction", "1", {}, {}},
+      {{"run", "1", {}, {}},
+       {"packing_fraction", "1", {}, {}},
        {"seed", "1", {}, {}},
        {"duration", "time", {}, {}},
        codes("verdict", verdict_names),
@@ -73,8 +74,9 @@ Table relaxation_table(const GlassStudy& study) {
        {"nematic_by_chance", "1", {}, {}},
        {"plateau", "1", {}, {}},
        codes("orientation", orientation_names)}};
-  for (const GlassRun& run : study.runs)
-    add_row(table, {plain(run.packing_fraction), plain(static_cast<double>(run.seed)),
+  for (const GlassRun& run : study.runs) {
+    const auto place = static_cast<double>(table.rows());
+    add_row(table, {plain(place), plain(run.packing_fraction), plain(static_cast<double>(run.seed)),
                     plain(run.duration), plain(number(run.equilibration.verdict)),
                     plain(static_cast<double>(run.equilibration.tests)),
                     plain(number(run.translation_equilibration.verdict)),
@@ -84,6 +86,8 @@ Table relaxation_table(const GlassStudy& study) {
                     Entry{run.nematic_order.mean, run.nematic_order.error},
                     plain(run.rotors > 0 ? nematic_order_by_chance(run.rotors) : unknown),
                     plain(run.plateau), plain(number(run.orientation))});
+    table.columns.front().labels.push_back(run.name);
+  }
   return table;
 }
 

@@ -123,10 +123,11 @@ void validate_sweep(const SweepParameters& p) {
       if (!keys.insert(key).second)
         throw BadValue(table + key,
                        "stands twice in [sweep.grid] and [sweep.together]; leave one out");
-  if (p.ladder && !keys.contains(*p.ladder))
-    throw BadValue(
-        "sweep.ladder",
-        fmt::format("is \"{}\", but must be a key of [sweep.grid] or [sweep.together]", *p.ladder));
+  for (const auto& [key, chosen] : {std::pair("sweep.ladder", p.ladder), {"sweep.axis", p.axis}})
+    if (chosen && !keys.contains(*chosen))
+      throw BadValue(key, fmt::format("is \"{}\", but must be a key of [sweep.grid] or "
+                                      "[sweep.together]",
+                                      *chosen));
   for (const auto& [key, values] : p.together) {
     const auto& [first, wanted] = p.together.front();
     if (values.size() != wanted.size())

@@ -121,7 +121,7 @@ void describe_contact(ContactParameters& p, FieldVisitor& visit) {
                 p.linear_dashpot.damping);
   });
   visit.when(p.law == Law::viscoelastic, "law = \"viscoelastic\"", [&](FieldVisitor& in) {
-    in.quantity({"youngs_modulus", "Pa", "Young's modulus Y.", bounds::positive},
+    in.quantity({"youngs_modulus", "Pa", "Young's modulus Y.", bounds::positive, "", "Y"},
                 p.viscoelastic.youngs_modulus);
     in.field({"poissons_ratio", "", "Poisson's ratio ν.", poissons_bounds},
              p.viscoelastic.poissons_ratio);
@@ -172,7 +172,9 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
   visit.field({"brownian_step", "time",
                "Time τ_B between draws of the velocities. A free particle diffuses with D = kT "
                "τ_B/(2 m). Brownian dynamics only.",
-               bounds::time},
+               bounds::time,
+               "",
+               "τ_B"},
               p.brownian_step);
   visit.field({"equilibration", "time", "Duration of the run before sampling starts, at time 0.",
                bounds::time_or_none},

@@ -178,6 +178,10 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
                          "job with the value before, and goes on with the stages that move "
                          "particles."},
                         p.sweep.ladder, std::string("system.packing_fraction"));
+            in.optional({"axis", "",
+                         "The key that charts and tables of the sweep run along. The default is the "
+                         "one with the most values that are numbers, seeds apart."},
+                        p.sweep.axis, std::string("system.packing_fraction"));
             in.grid({"grid", "",
                      "Keys of this file in quotes, each with a list of values. Every combination "
                      "of values is a job."},
@@ -186,7 +190,8 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
                      "Keys that advance together, each with the same number of values. The first "
                      "values of all keys make a job, the second values the next, and so on. "
                      "Together with a grid, each of these jobs is combined with every job of the "
-                     "grid. Jobs are named after the first of these keys and those of the grid."},
+                     "grid. Jobs are named after the keys of the grid and the first of these keys, or as "
+                     "many as it takes to tell the jobs apart."},
                     p.sweep.together);
           });
   };
@@ -209,6 +214,11 @@ void validate(const Parameters& parameters) {
   validate_analysis(parameters.analysis);
   validate_structure(parameters.structure);
   validate_sweep(parameters.sweep);
+}
+
+std::optional<Field> parameter_field(const std::string& dotted_key) {
+  Parameters blank;
+  return find_field(fields(blank), dotted_key);
 }
 
 Parameters load_parameters(const ParameterSource& source) {
@@ -266,10 +276,9 @@ std::string command_template(const std::string& command) {
                                 fmt::join(commands_with_parameters(), ", ")));
   Parameters parameters;
   if (found->second.sweep)
-    parameters.sweep = {
-        std::nullopt,
-        {{"system.seed", {"1", "2"}}},
-        {{"system.packing_fraction", {"0.4", "0.6"}}, {"dynamics.duration", {"100.0", "400.0"}}}};
+    parameters.sweep = {.grid = {{"system.seed", {"1", "2"}}},
+                        .together = {{"system.packing_fraction", {"0.4", "0.6"}},
+                                     {"dynamics.duration", {"100.0", "400.0"}}}};
   return fmt::format("# Parameters of `vitrel {}`, all at their defaults.\n\n", command) +
          parameter_template(fields(parameters, found->second));
 }

@@ -109,9 +109,11 @@ struct OutputParameters {
 /// The values that keys of the file run through in a sweep.
 struct SweepParameters {
   /// A key whose jobs start from the end of the job with the value before; none: all prepare a state of their own.
-  std::optional<std::string> ladder;
-  ParameterGrid grid;      ///< every value of a key with every value of the others
-  ParameterGrid together;  ///< the k-th values of all keys together
+  std::optional<std::string> ladder = {};
+  /// The key that charts and tables run along; none: chosen (study_axes.h).
+  std::optional<std::string> axis = {};
+  ParameterGrid grid = {};      ///< every value of a key with every value of the others
+  ParameterGrid together = {};  ///< the k-th values of all keys together
 };
 
 struct Parameters {
@@ -142,6 +144,9 @@ std::optional<std::string> place_of(const Parameters& parameters, const std::str
 struct Sections {
   bool system = true, prepare = true, run = true, analysis = true, sweep = true;
 };
+
+/// The description of a key that a sweep may run through; nothing if there is no such key.
+std::optional<Field> parameter_field(const std::string& dotted_key);
 
 /// Names all fields of the given sections.
 FieldVisitor::Inside fields(Parameters& parameters, const Sections& sections = {});

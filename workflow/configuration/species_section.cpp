@@ -83,13 +83,15 @@ void describe_system(SystemParameters& p, FieldVisitor& visit) {
                "Space dimensions: 2 for ellipses, 3 for ellipsoids.",
                {2, 3, false, false, "be 2 or 3"}},
               p.dimension);
-  visit.field({"particles", "", "Number of particles.", {1, 100'000'000}}, p.particles);
+  visit.field({"particles", "", "Number of particles.", {1, 100'000'000}, "", "N"}, p.particles);
   visit.field(
       {"packing_fraction", "",
        "Fraction of the box covered by particles: the sum of π a b divided by the area (of "
        "4π/3 a b c divided by the volume). It applies to the end of the preparation unless a "
        "reduced pressure ends it.",
-       bounds::packing_fraction},
+       bounds::packing_fraction,
+       "",
+       "φ"},
       p.packing_fraction);
   visit.field({"seed", "", "Seed of all random numbers."}, p.seed);
   static constexpr const char* draws[] = {"quantiles", "random"};
@@ -118,12 +120,18 @@ void describe_species(Species& p, FieldVisitor& visit) {
   describe_optional_distribution(
       {"aspect_ratio", "",
        "κ = a/b ≥ 1, the ratio of major to minor semi-axis: a number or a distribution. In three "
-       "dimensions it defines a prolate spheroid a : a/κ : a/κ."},
+       "dimensions it defines a prolate spheroid a : a/κ : a/κ.",
+       {},
+       "",
+       "κ"},
       p.aspect_ratio, 2, 1, visit);
   const Field ratios{
       "aspect_ratios", "",
       "In three dimensions, instead of aspect_ratio: [R_1, R_2] for the semi-axes a : a/R_1 : "
-      "a/R_2, each a positive number or a distribution like that of aspect_ratio."};
+      "a/R_2, each a positive number or a distribution like that of aspect_ratio.",
+      {},
+      "",
+      "R"};
   visit.optional(ratios, p.aspect_ratios, std::array{example_of(2), example_of(5)},
                  [&](FieldVisitor& in, std::array<Distribution, 2>& inner) {
                    describe_distributions(ratios, inner, in);

@@ -15,12 +15,14 @@ namespace vitrel {
 
 namespace {
 
-// What the numbers in the tables stand for.
-constexpr std::array<std::string_view, 3> kinds = {"translation, τ<sub>α</sub>",
-                                                   "rotation, τ<sub>2</sub>",
-                                                   "rotation in the nematic, τ<sub>2</sub>"};
-constexpr double found = 0, lower_bound = 1;
 constexpr const char* not_within_run = "not within this run";
+
+/// A kind of relaxation times as a page has it.
+std::string kind_text(const std::string& kind) {
+  const std::size_t comma = kind.find(',');
+  const bool is_translation = kind == name_of(GlassKind::translation);
+  return kind.substr(0, comma) + (is_translation ? ", τ<sub>α</sub>" : ", τ<sub>2</sub>");
+}
 
 /// What depends on the dimension of a run.
 struct Notation {
@@ -41,10 +43,10 @@ struct Row {
 
   double value(const char* column) const { return table_value(study, table, column, k); }
   std::string text(const char* column) const { return table_text(study, table, column, k); }
-  template <std::size_t n>
-  std::string_view word(const char* column, const std::array<std::string_view, n>& words) const {
-    const double code = value(column);
-    return code >= 0 && code < n ? words[static_cast<std::size_t>(code)] : "–";
+  /// What a code stands for; empty without the column.
+  std::string word(const char* column) const {
+    const Column* found = study.find(table)->find(column);
+    return found ? label_text(*found, k) : "";
   }
 };
 
@@ -62,31 +64,32 @@ std::string rows_of(const Results& study, const char* name, Format&& format) {
   return rows;
 }
 
-std::string relaxation_row(const Row& row) {
+std::string relaxation_row(const Row& row, const std::map<std::string, std::string>& labels) {
   const bool nematic = row.value("plateau") > 0;
-  auto orientations = orientation_names;
-  orientations[static_cast<std::size_t>(OrientationKind::lasting)] = not_within_run;
+  const auto label = labels.find(row.word("run"));
+  const std::string orientation = row.word("orientation");
   return html_row(
-      density_text(row.value("packing_fraction")),
-      {row.text("seed"), std::string(row.word("verdict_translation", verdict_names)),
-       std::string(row.word("verdict", verdict_names)),
-       std::string(row.word("orientation", orientations)), row.text("wave_number"),
-       row.text("tau_translation"), row.text("tau_rotation"), row.text("nematic_order"),
-       row.text("nematic_by_chance"), nematic ? row.text("plateau") : "–", row.text("duration")});
+      label == labels.end() ? density_text(row.value("packing_fraction")) : escaped(label->second),
+      {row.text("seed"), row.word("verdict_translation"), row.word("verdict"),
+       orientation == name_of(OrientationKind::lasting) ? not_within_run : orientation,
+       row.text("wave_number"), row.text("tau_translation"), row.text("tau_rotation"),
+       row.text("nematic_order"), row.text("nematic_by_chance"),
+       nematic ? row.text("plateau") : "–", row.text("duration")});
 }
 
 std::string critical_density(const Row& row) {
-  if (row.value("verdict") == found) return row.text("phi_c");
+  const std::string verdict = row.word("verdict");
+  if (verdict == name_of(GlassVerdict::found)) return row.text("phi_c");
   const bool bounded =
-      row.value("verdict") == lower_bound && std::isfinite(row.value("phi_c_least"));
+      verdict == name_of(GlassVerdict::lower_bound) && std::isfinite(row.value("phi_c_least"));
   return bounded ? "&gt; " + row.text("phi_c_least") : "–";
 }
 
 std::string fit_row(const Row& row) {
   const double dof = row.value("dof");
   return html_row(
-      row.word("kind", kinds),
-      {std::string(row.word("law", law_names)), critical_density(row), row.text("exponent"),
+      kind_text(row.word("kind")),
+      {row.word("law"), critical_density(row), row.text("exponent"),
        dof > 0 ? fmt::format("{} … {}", row.text("window_low"), row.text("window_high")) : "–",
        dof > 0 ? fmt::format("{:.2f}", row.value("chi2") / dof) : "–",
        dof > 0 ? row.text("scatter") : "–"});
@@ -95,12 +98,12 @@ std::string fit_row(const Row& row) {
 /// "ageing: S drifts", with the reason of that name.
 std::string verdict_text(const Row& row, const char* column, const char* reason) {
   const std::string why = row.study.text(reason);
-  return std::string(row.word(column, verdict_names)) + (why.empty() ? "" : ": " + escaped(why));
+  return row.word(column) + (why.empty() ? "" : ": " + escaped(why));
 }
 
 std::string verdict_rows(const Row& row) {
   std::string all = html_row("equilibrium", {verdict_text(row, "verdict", "verdict_reason"), ""});
-  if (row.value("verdict") == row.value("verdict_translation")) return all;
+  if (row.word("verdict") == row.word("verdict_translation")) return all;
   return all +
          html_row("of translation alone",
                   {verdict_text(row, "verdict_translation", "verdict_translation_reason"), ""});
@@ -119,11 +122,12 @@ std::string time_row(const Row& row, const Notation& notation) {
   if (row.value("group") != 0) return "";
   const std::string parameter = row.text("parameter");
   const std::string time = time_text(row, notation.unit_of_time);
-  constexpr std::array<std::string_view, 5> of_what = {
-      "", "", " of the middle axis", " of the shortest axis", " relative to the cage"};
-  const std::string_view what = row.word("kind", of_what);
-  const double kind = row.value("kind");
-  if (kind == 0 || kind == 4)
+  constexpr std::string_view scattering = "self scattering", orientation = "orientation";
+  const std::string kind = row.word("kind");
+  const bool is_translation = kind.starts_with(scattering);
+  // "… relative to the cage", "… of the middle axis"
+  const std::string what = kind.substr(is_translation ? scattering.size() : orientation.size());
+  if (is_translation)
     return html_row(fmt::format("relaxation time τ<sub>α</sub>{}", what),
                     {time, fmt::format("F<sub>s</sub>(q, t) = 1/e at q = {}/{}", parameter,
                                        notation.unit_of_length)});
@@ -156,8 +160,10 @@ std::string result_rows(const Results& run, int dimension, const std::optional<F
          rows_of(run, "relaxation", with_notation(director_row));
 }
 
-std::string relaxation_rows(const Results& study) {
-  return rows_of(study, "relaxation", relaxation_row);
+std::string relaxation_rows(const Results& study,
+                            const std::map<std::string, std::string>& labels) {
+  return rows_of(study, "relaxation",
+                 [&](const Row& row) { return relaxation_row(row, labels); });
 }
 
 std::string fit_rows(const Results& study) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -17,9 +18,9 @@ namespace vitrel {
 std::string result_rows(const Results& run, int dimension,
                         const std::optional<FileUnits>& units = {});
 
-/// One row per run: φ, seed, verdict, what orientations do, q, τ_α at that q, τ_2, nematic order and
-/// that by chance, plateau of L_2, duration. From the table `relaxation`; empty without it.
-std::string relaxation_rows(const Results& study);
+/// One row per run: its label or else φ, seed, verdict, what orientations do, q, τ_α at that q, τ_2, nematic order and
+/// that by chance, plateau of L_2, duration. From the table `relaxation`; empty without it. Labels by the names of runs.
+std::string relaxation_rows(const Results& study, const std::map<std::string, std::string>& labels);
 
 /// One row per kind of time and law: φ_c with its error, or the bound "> 0.81", or "–" if the law was
 /// refused; the two parts of the error, the exponent, the best window and how well the law fits there.

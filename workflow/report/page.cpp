@@ -19,7 +19,7 @@ namespace {
 Page page_of_sweep(const std::filesystem::path& folder, const AnalysisChoice& choice,
                    const AnalysisProgress& progress) {
   const SweepProgress sweep = sweep_progress(folder);
-  ReportData data = report_data(analysed_jobs(sweep, choice, progress));
+  ReportData data = report_data(analysed_sweep(sweep, choice, progress));
   if (!sweep.unfinished.empty()) {
     data.subtitle += "; " + sweep.share();
     data.provenance.emplace_back("left_out", sweep.left_out());
@@ -64,7 +64,7 @@ Page page_of(const std::filesystem::path& input, const AnalysisChoice& choice,
       return {subject, 1, packing_page(packing_page_data(input, choice, progress))};
     case PageSubject::run:
       return {subject, 1,
-              report_page(report_data({stored_or_analyzed(input, choice, progress)},
+              report_page(report_data(stored_or_analyzed(input, choice, progress),
                                       known_system(choice)))};
   }
   return {};

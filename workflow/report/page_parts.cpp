@@ -102,6 +102,11 @@ PageUnits page_units(int dimension, const std::optional<FileUnits>& of_file) {
       "kT"};
 }
 
+std::string unit_name(const std::string& unit, const PageUnits& units) {
+  const Json names = unit_names(units);
+  return names.contains(unit) ? names[unit].get<std::string>() : unit;
+}
+
 std::string whole_page(PageParts parts) {
   const auto text = [](std::string_view path) { return std::string(asset(path)); };
   const bool in_plane = parts.dimension == 2;

@@ -38,6 +38,8 @@ struct PageUnits {
   std::string length, area, time, diffusion, rotational_diffusion, energy;
 };
 PageUnits page_units(int dimension, const std::optional<FileUnits>& of_file = {});
+/// The unit of a column in these words; empty for pure numbers.
+std::string unit_name(const std::string& unit, const PageUnits& units);
 
 /// A whole page. `sections` and `script` are names of files of the folder page; the texts fill the
 /// sections, beside those that all pages have: movie and the units.

@@ -52,8 +52,20 @@ std::vector<std::size_t> every(std::size_t stride, std::size_t size) {
   return rows;
 }
 
+/// Codes as what they stand for.
+Json page_labels(const Column& column, const std::vector<std::size_t>& rows) {
+  Json labels = Json::array();
+  for (const std::size_t row : rows) {
+    const std::string text = label_text(column, row);
+    labels.push_back(text.empty() ? Json() : Json(text));
+  }
+  return labels;
+}
+
 Json column_data(const Column& column, const std::vector<std::size_t>& rows) {
-  Json data = {{"unit", column.unit}, {"value", page_numbers(column.value, rows)}};
+  Json data = {{"unit", column.unit},
+               {"value", column.labels.empty() ? page_numbers(column.value, rows)
+                                               : page_labels(column, rows)}};
   if (std::ranges::any_of(column.error, [](double error) { return std::isfinite(error); }))
     data["error"] = page_numbers(column.error, rows, error_digits);
   return data;
@@ -85,7 +97,7 @@ Json numbers_data(const Chart::Numbers& numbers) {
 }
 
 Json chart_data(const Observable& observable, const Chart& chart) {
-  constexpr const char* sections[] = {"motion", "relaxation", "structure", "course", "density"};
+  constexpr const char* sections[] = {"motion", "relaxation", "structure", "course", "study"};
   constexpr const char* scales[] = {"linear", "logarithmic", "fromZero", "decay", "aroundOne"};
   constexpr const char* levels[] = {"none", "equipartition", "mean"};
   return {{"table", observable.table},
@@ -127,11 +139,21 @@ Json tables_data(const Results& results, const std::vector<Observable>& observab
   return data;
 }
 
+Json table_data(const Table& table) {
+  return table_data(table, false, {.max_rows = table.rows()});
+}
+
 Json charts_data(const std::vector<Observable>& observables) {
   Json data = Json::array();
   for (const Observable& observable : observables)
     for (const Chart& chart : observable.charts) data.push_back(chart_data(observable, chart));
   return data;
+}
+
+std::string label_text(const Column& column, std::size_t row) {
+  const double code = column.value[row];
+  const bool is_known = code >= 0 && code < static_cast<double>(column.labels.size());
+  return is_known ? column.labels[static_cast<std::size_t>(code)] : "";
 }
 
 std::string density_text(double phi) {

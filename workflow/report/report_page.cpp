@@ -5,13 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "workflow/report/assets.h"
 #include "workflow/report/glass_rows.h"
 #include "workflow/report/page_parts.h"
 #include "workflow/report/page_tables.h"
+#include "workflow/report/runs_rows.h"
 
 namespace vitrel {
 
@@ -20,63 +21,59 @@ namespace {
 constexpr std::size_t max_bytes = 2'000'000;
 constexpr double min_rows_per_decade = 5;
 
-/// What comes after the beginning that all these names share, cut behind an underscore.
-std::string distinction(const std::string& name, const std::vector<std::string>& names) {
-  std::size_t shared = name.size();
-  for (const std::string& other : names) {
-    const auto apart = std::mismatch(name.begin(), name.end(), other.begin(), other.end());
-    if (other != name)
-      shared = std::min(shared, static_cast<std::size_t>(apart.first - name.begin()));
-  }
-  const std::size_t underscore = name.substr(0, shared).rfind('_');
-  return underscore == std::string::npos ? name : name.substr(underscore + 1);
-}
-
-/// "φ = 0.5", with the name of the run where another one has the same density.
-std::string label(const ReportRun& run, const std::vector<ReportRun>& runs) {
-  std::vector<std::string> equals;
-  for (const ReportRun& other : runs)
-    if (density_text(other.packing_fraction) == density_text(run.packing_fraction))
-      equals.push_back(other.name);
-  return "φ = " + density_text(run.packing_fraction) +
-         (equals.size() > 1 ? " (" + distinction(run.name, equals) + ")" : "");
-}
-
-Json run_data(const ReportRun& run, const ReportData& data,
-              const std::vector<Observable>& observables, const Thinning& thinning) {
-  return {{"label", label(run, data.runs)},
+Json run_data(const ReportRun& run, const std::vector<Observable>& observables,
+              const Thinning& thinning) {
+  return {{"label", run.label},
           {"name", run.name},
           {"dynamics", run.dynamics},
-          {"packingFraction", page_number(run.packing_fraction)},
-          {"collisionsPerSecond", page_number(run.collisions_per_second)},
           {"evenlySampled", !run.results.text("time_axis").starts_with("unevenly")},
           {"tables", tables_data(run.results, observables, thinning)},
           {"movie", movie_data(run.movie)}};
 }
 
+/// The table of all jobs, which only a sweep has.
+const Table* jobs_of(const ReportData& data) {
+  return data.runs.size() > 1 ? data.study.find("runs") : nullptr;
+}
+
+std::vector<ReportAxis> axes_of(const ReportData& data) {
+  if (!data.axes.empty()) return data.axes;
+  return {{"packing_fraction", "φ", "packing fraction"}};
+}
+
+Json study_data(const ReportData& data) {
+  Json study = tables_data(data.study, {});
+  const Table* averages = data.study.find("seeds");
+  if (const Table* jobs = jobs_of(data)) study["jobs"] = table_data(averages ? *averages : *jobs);
+  for (const ReportAxis& axis : axes_of(data))
+    study["axes"].push_back({{"column", axis.column}, {"symbol", axis.symbol}});
+  return study;
+}
+
+/// By the names of runs, where they differ in more than their density.
+std::map<std::string, std::string> labels_of(const ReportData& data) {
+  std::map<std::string, std::string> labels;
+  if (data.axes.size() > 1)
+    for (const ReportRun& run : data.runs) labels[run.name] = run.label;
+  return labels;
+}
+
+/// Heading and rows.
+std::pair<std::string, std::string> table_of_runs(const ReportData& data, const PageUnits& units) {
+  const Table* summary = data.runs.empty() ? nullptr : data.runs.front().results.find("summary");
+  const Table* jobs = jobs_of(data);
+  if (!jobs && !summary) return {};
+  RunsTable table{jobs ? *jobs : *summary, {}, {}, {}};
+  for (const ReportAxis& axis : axes_of(data)) {
+    table.keys.push_back(axis.column);
+    table.symbols.push_back(axis.symbol);
+  }
+  for (const ReportRun& run : data.runs) table.names.push_back(run.name);
+  return {runs_heading(table, units), runs_rows(table)};
+}
+
 std::string cell(const std::string& text) {
   return "<td>" + text + "</td>";
-}
-
-std::string count_cell(double count) {
-  return cell(std::isfinite(count) ? grouped(static_cast<std::uint64_t>(count)) : "–");
-}
-
-std::string table_row(const ReportRun& run) {
-  const auto text = [&](const char* column) {
-    return cell(table_text(run.results, "summary", column));
-  };
-  const auto value = [&](const char* column) {
-    return table_value(run.results, "summary", column);
-  };
-  const double duration = value("duration");
-  return "<tr><th scope=\"row\">" + density_text(run.packing_fraction) + "</th>" +
-         text("compressibility_factor") + text("diffusion") + text("rotational_diffusion") +
-         text("translational_energy") +
-         (value("rotations") == 0 ? cell("–") : text("rotational_energy")) +
-         count_cell(value("collisions")) + count_cell(run.collisions_per_second) +
-         cell(std::isfinite(duration) ? fmt::format("{:.6g}", duration) : "–") +
-         count_cell(value("particles")) + cell(escaped(run.name)) + "</tr>\n";
 }
 
 std::string text_of(const PageProvenance& provenance, std::size_t k) {
@@ -142,27 +139,28 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
   const int dimension = dimension_of(data);
   const std::vector<Observable> tables = observables(dimension);
   Json runs = Json::array();
-  std::string rows;
   for (const ReportRun& run : data.runs) {
-    Json& entry = runs.emplace_back(run_data(run, data, tables, thinning));
+    Json& entry = runs.emplace_back(run_data(run, tables, thinning));
     if (run.cooling)
       entry["cooling"] = cooling_data(haff_law(*run.cooling, run.results, dimension));
-    rows += table_row(run);
   }
+  const auto [heading, rows] = table_of_runs(data, page_units(dimension, data.units));
   return whole_page({data.title,
                      data.subtitle,
                      "page/runs_sections.html",
                      "page/report.js",
                      {{"cooling", cooling_section(data.runs, dimension)},
                       {"result", result_section(data, dimension)},
+                      {"table_heading", heading},
                       {"table_rows", rows},
+                      {"abscissa", escaped(axes_of(data).back().name)},
                       {"job_provenance", job_provenance(data.runs)},
-                      {"relaxation_rows", relaxation_rows(data.study)},
+                      {"relaxation_rows", relaxation_rows(data.study, labels_of(data))},
                       {"fit_rows", fit_rows(data.study)},
                       {"study_notes", study_notes(data.study)}},
                      script_safe(Json{{"runs", std::move(runs)},
                                       {"charts", charts_data(tables)},
-                                      {"study", tables_data(data.study, {})}}),
+                                      {"study", study_data(data)}}),
                      data.parameters,
                      shared_provenance(data),
                      dimension,

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
+#include <set>
 
 #include "core/io/foreign/foreign_file.h"
 #include "workflow/configuration/hard_contacts.h"
 #include "workflow/storage/trajectory_file.h"
-#include "workflow/sweep/sweep_results.h"
 
 namespace vitrel {
 namespace {
@@ -78,67 +77,87 @@ std::vector<std::size_t> movie_room(std::size_t runs) {
   return room;
 }
 
-/// The number of collisions per second of wall time; NaN if the file does not record the time, as in a run in progress.
-double collisions_per_second(const TrajectoryReader& reader) {
+/// Adds what the run cost to its summary. A run in progress does not record the time, nor do other programs.
+void add_cost(const TrajectoryReader& reader, Results& results) {
   const double seconds = reader.provenance().wall_seconds;
   if (!(seconds > 0) || !reader.import_report().empty() || !reader.has_observable("collisions"))
-    return std::numeric_limits<double>::quiet_NaN();
-  return reader.observable("collisions").back() / seconds;
+    return;
+  const auto summary = std::ranges::find(results.tables, "summary", &Table::name);
+  if (summary == results.tables.end() || summary->find("wall_seconds")) return;
+  summary->columns.push_back({"wall_seconds", "s", {seconds}, {}});
+  summary->columns.push_back({"collisions_per_second_with_output",
+                              "1/s",
+                              {reader.observable("collisions").back() / seconds},
+                              {}});
 }
 
 template <int Dim>
-ReportRun report_run(const AnalysedRun& run, TrajectoryFile<Dim>& trajectory, std::size_t room) {
+ReportRun report_run(const AnalysedRun& run, const std::string& label,
+                     TrajectoryFile<Dim>& trajectory, std::size_t room) {
   const TrajectoryReader& reader = trajectory.reader();
-  const auto parameters = stored_parameters(reader);
+  const bool is_state = reader.frames() == 1;
+  const auto parameters = is_state ? std::nullopt : stored_parameters(reader);
   const auto dynamics = parameters ? std::optional(parameters->dynamics) : std::nullopt;
   const MovieLimits limits{.characters = room, .images_known = reader.has("image")};
-  return {run.name(),
-          dynamics ? dynamics_text(*dynamics) : "",
-          run.packing_fraction(),
-          collisions_per_second(reader),
-          run.results,
-          film(trajectory, limits),
-          provenance_rows(reader.provenance()),
-          dynamics ? cooling_of(*dynamics) : std::nullopt};
+  ReportRun shown{run.name(),
+                  label,
+                  dynamics ? dynamics_text(*dynamics) : "",
+                  run.packing_fraction(),
+                  run.results,
+                  film(trajectory, limits),
+                  provenance_rows(reader.provenance()),
+                  dynamics ? cooling_of(*dynamics) : std::nullopt};
+  if (!is_state) add_cost(reader, shown.results);
+  return shown;
 }
 
-/// The name of the run and what it is of; or the folder of the sweep, in which every job has a folder of its
-/// own.
-template <int Dim>
-void add_titles(const std::vector<AnalysedRun>& runs, const Configuration<Dim>& state,
-                ReportData& data) {
-  const ReportRun& first = data.runs.front();
-  const std::string particles = fmt::format("{} {}", state.size(), particles_text(state));
-  if (runs.size() == 1) {
-    data.title = fmt::format("{}: run of {}", first.name, particles);
-    data.subtitle = fmt::format("{}{}φ = {:.6g}", first.dynamics,
-                                first.dynamics.empty() ? "" : ", ", first.packing_fraction);
-    return;
-  }
-  const std::filesystem::path file = std::filesystem::absolute(runs.front().file);
-  data.title = file.lexically_normal().parent_path().parent_path().filename().string();
-  data.subtitle = particles + (first.dynamics.empty() ? "" : ", " + first.dynamics);
-  data.parameters = "# of " + first.name + "\n";
+/// The one text of all of these; empty if they differ.
+std::string shared_text(const std::set<std::string>& texts) {
+  return texts.size() == 1 ? *texts.begin() : "";
 }
 
-template <int Dim>
-void add_runs(const std::vector<AnalysedRun>& runs, const KnownSystem& known, ReportData& data) {
-  const std::vector<std::size_t> room = movie_room(runs.size());
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    TrajectoryFile<Dim> trajectory{TrajectoryReader(runs[k].file, known)};
-    data.runs.push_back(report_run(runs[k], trajectory, room[k]));
-    if (k > 0) continue;
-    add_titles(runs, trajectory.read(0), data);
-    data.parameters += trajectory.reader().provenance().parameters;
-    data.units = trajectory.reader().units();
-    if (has_particles_of_its_own(stored_parameters(trajectory.reader())))
-      data.provenance.emplace_back(
-          "errors",
-          "of this realisation of sizes and shapes: every seed has its own "
-          "(system.draw), and differs by more");
-    if (runs.size() > 1) continue;
-    for (const auto& row : trajectory.reader().import_report()) data.provenance.push_back(row);
+/// What the page says of the runs besides their tables.
+struct Titles {
+  std::set<std::string> particles, dynamics;
+
+  /// "100 ellipses, κ = 2, Newtonian", as far as it holds for all.
+  std::string shared() const {
+    const std::string of_particles = shared_text(particles), of_dynamics = shared_text(dynamics);
+    return of_particles + (of_particles.empty() || of_dynamics.empty() ? "" : ", ") + of_dynamics;
   }
+};
+
+template <int Dim>
+void add_run(const AnalysedRun& run, const std::string& label, const KnownSystem& known,
+             std::size_t room, ReportData& data, Titles& titles) {
+  TrajectoryFile<Dim> trajectory{TrajectoryReader(run.file, known)};
+  data.runs.push_back(report_run(run, label, trajectory, room));
+  const Configuration<Dim>& state = trajectory.read(0);
+  titles.particles.insert(fmt::format("{} {}", state.size(), particles_text(state)));
+  titles.dynamics.insert(data.runs.back().dynamics);
+  if (data.runs.size() > 1) return;
+  const TrajectoryReader& reader = trajectory.reader();
+  data.parameters = reader.provenance().parameters;
+  data.units = reader.units();
+  if (has_particles_of_its_own(stored_parameters(reader)))
+    data.provenance.emplace_back(
+        "errors",
+        "of this realisation of sizes and shapes: every seed has its own "
+        "(system.draw), and differs by more");
+  for (const auto& row : reader.import_report()) data.provenance.push_back(row);
+}
+
+void add_run(const AnalysedRun& run, const std::string& label, const KnownSystem& known,
+             std::size_t room, ReportData& data, Titles& titles) {
+  const bool in_plane = dimension_of_file(run.file, known) == 2;
+  (in_plane ? add_run<2> : add_run<3>)(run, label, known, room, data, titles);
+}
+
+/// The last part of a dotted key, with blanks.
+std::string words(const std::string& key) {
+  std::string last = key.substr(key.rfind('.') + 1);
+  std::ranges::replace(last, '_', ' ');
+  return last;
 }
 
 std::string shapes_text(const std::vector<Ellipse>& shapes) {
@@ -172,11 +191,34 @@ std::string particles_text(const Configuration<Dim>& state) {
 template std::string particles_text(const Configuration2&);
 template std::string particles_text(const Configuration3&);
 
-ReportData report_data(const std::vector<AnalysedRun>& runs, const KnownSystem& known) {
+ReportData report_data(const AnalysedRun& run, const KnownSystem& known) {
   ReportData data;
-  const bool in_plane = dimension_of_file(runs.front().file, known) == 2;
-  (in_plane ? add_runs<2> : add_runs<3>)(runs, known, data);
-  if (runs.size() > 1) data.study = results_of_sweep(runs, glass_study(runs));
+  Titles titles;
+  add_run(run, fmt::format("φ = {:.6g}", run.packing_fraction()), known, movie_room(1).front(),
+          data, titles);
+  const ReportRun& shown = data.runs.front();
+  data.title = fmt::format("{}: run of {}", shown.name, *titles.particles.begin());
+  data.subtitle = fmt::format("{}{}φ = {:.6g}", shown.dynamics, shown.dynamics.empty() ? "" : ", ",
+                              shown.packing_fraction);
+  return data;
+}
+
+ReportData report_data(const AnalysedSweep& sweep) {
+  if (sweep.runs.size() == 1) return report_data(sweep.runs.front());
+  ReportData data;
+  Titles titles;
+  const std::vector<std::size_t> room = movie_room(sweep.runs.size());
+  for (std::size_t k = 0; k < sweep.runs.size(); ++k)
+    add_run(sweep.runs[k], sweep.label(k), {}, room[k], data, titles);
+  // The folder of the sweep, in which every job has a folder of its own.
+  const std::filesystem::path file = std::filesystem::absolute(sweep.runs.front().file);
+  data.title = file.lexically_normal().parent_path().parent_path().filename().string();
+  data.subtitle = fmt::format("{} jobs", sweep.runs.size());
+  if (const std::string shared = titles.shared(); !shared.empty()) data.subtitle += ": " + shared;
+  data.parameters = "# of " + data.runs.front().name + "\n" + data.parameters;
+  for (const StudyAxis& axis : sweep.axes)
+    data.axes.push_back({axis.column(), axis.symbol, words(axis.key)});
+  data.study = results_of_sweep(sweep, glass_study(sweep));
   return data;
 }
 

@@ -7,6 +7,7 @@
 #include "core/state/configuration.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/report/report_page.h"
+#include "workflow/sweep/sweep_results.h"
 
 namespace vitrel {
 
@@ -15,10 +16,10 @@ namespace vitrel {
 template <int Dim>
 std::string particles_text(const Configuration<Dim>& state);
 
-/// The report's view of these runs, in their order: one run, or jobs of one sweep. Reads the files again, for
-/// the movies: one run has all the room for movies (MovieLimits); of several, six spread evenly over them share half of it, and the
-/// others show their final state.
-/// `known`: of files of other programs.
-ReportData report_data(const std::vector<AnalysedRun>& runs, const KnownSystem& known = {});
+/// The report's view of a run, or of the jobs of a sweep in their order. Reads the files again, for the movies: one run has
+/// all the room for movies (MovieLimits); of several, six spread evenly over them share half of it, and the others show
+/// their final state. `known`: of a file of another program.
+ReportData report_data(const AnalysedRun& run, const KnownSystem& known = {});
+ReportData report_data(const AnalysedSweep& sweep);
 
 }  // namespace vitrel

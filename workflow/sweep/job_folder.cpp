@@ -90,7 +90,12 @@ void write_job_folder(const SweepJob& job, const fs::path& folder) {
   }
   write_text(file, text);
   write_text(folder / "params.json",
-             json_text({{"id", job.id}, {"values", values_json(job)}}, 2) + "\n");
+             json_text({{"id", job.id},
+                        {"values", values_json(job)},
+                        {"together", job.layout.together},
+                        {"axis", job.layout.axis.value_or("")}},
+                       2) +
+                 "\n");
 }
 
 std::optional<ParameterDifference> change_since_begun(const SweepJob& job, const fs::path& folder) {
@@ -111,6 +116,19 @@ void write_job_end(JobStage stage, const std::string& step, int exit_code, const
   } catch (const FileError&) {
     // What the job said has been told already, and is worth more than this.
   }
+}
+
+JobPlace job_place(const fs::path& folder) {
+  JobPlace place;
+  const fs::path file = folder / "params.json";
+  if (!fs::exists(file)) return place;
+  read_json_as("the values of a job", file, [&](const Json& job) {
+    place.values = swept_values(job.at("values"));
+    // Jobs of earlier versions have neither.
+    place.layout.together = job.value("together", std::vector<std::string>());
+    if (const std::string axis = job.value("axis", ""); !axis.empty()) place.layout.axis = axis;
+  });
+  return place;
 }
 
 Json job_end(const fs::path& folder) {

@@ -13,7 +13,7 @@
 /// @file
 /// The folder of a job:
 ///
-///     sweep/<id>/params.json      the job's values of the grid, and its id
+///     sweep/<id>/params.json      the job's values, and its place in the sweep
 ///               /parameters.toml  all its parameters
 ///               /state.h5 run.h5 results.h5
 ///                                 made by prepare, run, analyze, each in a process of its own
@@ -47,6 +47,13 @@ void write_job_end(JobStage stage, const std::string& step, int exit_code,
                    const std::filesystem::path& folder);
 /// The summaries of the steps of a job that is done: "prepare", and "run" or "analyze" if there were such. FileError.
 Json job_done(const std::filesystem::path& folder);
+/// Where a job stands in its sweep.
+struct JobPlace {
+  SweptValues values;
+  StudyLayout layout;
+};
+/// Empty for a run that belongs to no sweep. FileError.
+JobPlace job_place(const std::filesystem::path& folder);
 /// What write_job_end wrote; null without it. FileError.
 Json job_end(const std::filesystem::path& folder);
 /// In words: "failed in run with exit code 3: run.h5: cannot be written".

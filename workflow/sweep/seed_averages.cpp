@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "analysis/statistics/blocking.h"
 #include "core/io/number_text.h"
@@ -14,7 +13,6 @@
 namespace vitrel {
 namespace {
 
-constexpr const char* seed_key = "system.seed";
 constexpr const char* error_suffix = "_error";
 constexpr double one_sigma = 0.6827;
 
@@ -55,12 +53,6 @@ AveragedFigure averaged(const std::string& name, const std::vector<const Figures
 }
 
 }  // namespace
-
-SweptValues swept_values(const Json& values) {
-  SweptValues texts;
-  for (const auto& [key, value] : values.items()) texts.emplace_back(key, json_text(value));
-  return texts;
-}
 
 std::string SeedAverage::name() const {
   std::vector<std::string> parts;

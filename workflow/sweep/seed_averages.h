@@ -5,16 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/json.h"
 #include "workflow/sweep/job_folder.h"
+#include "workflow/sweep/study_axes.h"
 
 /// @file
 /// Jobs of a sweep that differ in nothing but their seeds.
 namespace vitrel {
-
-/// Dotted keys that a sweep runs through, and the JSON text of their values.
-using SweptValues = std::vector<std::pair<std::string, std::string>>;
-SweptValues swept_values(const Json& values);
 
 /// What a finished job gave.
 struct JobResult {

@@ -58,28 +58,53 @@ std::string last_part(const std::string& key) {
   return key.substr(key.rfind('.') + 1);
 }
 
-// Letters, digits and a few marks; anything else becomes "_", so that every shell takes the name.
-std::string file_name_part(std::string text) {
-  std::erase(text, '"');
-  for (char& c : text)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-' && c != '+') c = '_';
-  return text;
+/// Letters, digits and a few marks; anything between them becomes one "_", so that every shell takes the name.
+std::string file_name_part(const std::string& text) {
+  std::string part;
+  for (const char c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+')
+      part += c;
+    else if (!part.empty() && part.back() != '_')
+      part += '_';
+  return part.substr(0, part.find_last_not_of('_') + 1);
 }
 
-std::string job_id(const std::vector<Assignments>& combination) {
+/// How many of the keys of an axis it takes to tell its values apart.
+std::size_t naming_keys(const Axis& axis) {
+  const std::size_t keys = axis.front().size();
+  for (std::size_t count = 1; count < keys; ++count) {
+    std::set<Assignments> names;
+    for (const Assignments& choice : axis)
+      names.emplace(choice.begin(), choice.begin() + static_cast<std::ptrdiff_t>(count));
+    if (names.size() == axis.size()) return count;
+  }
+  return keys;
+}
+
+std::string job_id(const std::vector<Assignments>& combination, const std::vector<Axis>& axes) {
+  Assignments named;
+  for (std::size_t a = 0; a < axes.size(); ++a)
+    named.insert(named.end(), combination[a].begin(),
+                 combination[a].begin() + static_cast<std::ptrdiff_t>(naming_keys(axes[a])));
   std::map<std::string, int> uses;
-  for (const Assignments& choice : combination) ++uses[last_part(choice.front().first)];
+  for (const auto& [key, value] : named) ++uses[last_part(key)];
   std::string id;
-  for (const Assignments& choice : combination) {
-    const auto& [key, value] = choice.front();
+  for (const auto& [key, value] : named) {
     const std::string name = uses[last_part(key)] == 1 ? last_part(key) : key;
     id += fmt::format("{}{}-{}", id.empty() ? "" : "_", name, file_name_part(value));
   }
   return id.empty() ? "job" : id;
 }
 
+StudyLayout layout_of(const SweepParameters& sweep) {
+  StudyLayout layout{{}, sweep.axis};
+  for (const auto& [key, values] : sweep.together) layout.together.push_back(key);
+  return layout;
+}
+
 // What the sweep sets would silently win.
-void refuse_overridden_keys(const std::vector<Axis>& axes, const ParameterSource& source) {
+void refuse_overridden_keys(const std::vector<Axis>& axes, const StudyLayout& layout,
+                            const ParameterSource& source) {
   for (const Axis& axis : axes)
     for (const auto& [key, value] : axis.front()) {
       const bool is_seed = key == "system.seed" && source.seed;
@@ -89,9 +114,11 @@ void refuse_overridden_keys(const std::vector<Axis>& axes, const ParameterSource
       if (is_seed || set != source.overrides.end())
         throw UserError(
             fmt::format("{}: '{}' runs through the values of the sweep, so that {} has no effect; "
-                        "leave out one of "
-                        "the two",
-                        source.file.string(), key, is_seed ? "--seed" : "--set " + *set));
+                        "leave out one of the two, or set the values: --set "
+                        "'sweep.{}.{}=[{}]'",
+                        source.file.string(), key, is_seed ? "--seed" : "--set " + *set,
+                        std::ranges::count(layout.together, key) > 0 ? "together" : "grid", key,
+                        value));
     }
 }
 
@@ -124,6 +151,20 @@ void start_from(SweepJob& job, const std::string& predecessor, ParameterSource s
   job.parameters = load_parameters(source);
 }
 
+/// Tables and numbers that are not finite stay TOML text.
+Json json_of(const TomlNode& node) {
+  if (const auto* array = node.get<TomlNode::Array>()) {
+    Json entries = Json::array();
+    for (const TomlNode& entry : *array) entries.push_back(json_of(entry));
+    return entries;
+  }
+  if (const auto* real = node.get<double>(); real && std::isfinite(*real)) return *real;
+  if (const auto* integer = node.get<std::int64_t>()) return *integer;
+  if (const auto* flag = node.get<bool>()) return *flag;
+  if (const auto* text = node.get<std::string>()) return *text;
+  return to_toml(node);
+}
+
 double wave_number_of(const Parameters& p) {
   const auto& system = p.system;
   const auto particles = static_cast<std::size_t>(system.particles);
@@ -154,12 +195,14 @@ void share_wave_number(std::vector<SweepJob>& jobs) {
 std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
   const Parameters common = load_parameters(source);
   const std::vector<Axis> axes = axes_of(common.sweep);
-  refuse_overridden_keys(axes, source);
+  const StudyLayout layout = layout_of(common.sweep);
+  refuse_overridden_keys(axes, layout, source);
   std::vector<SweepJob> jobs;
   std::set<std::string> ids;
   for (const std::vector<Assignments>& combination : combinations_of(axes)) {
     SweepJob job;
-    job.id = job_id(combination);
+    job.id = job_id(combination, axes);
+    job.layout = layout;
     ParameterSource job_source = source;
     for (const Assignments& choice : combination)
       for (const auto& [key, value] : choice) {
@@ -171,12 +214,12 @@ std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
     name_state_absolutely(job.parameters);
     if (common.sweep.ladder)
       if (const auto before = combination_before(combination, axes, *common.sweep.ladder))
-        start_from(job, job_id(*before), job_source);
+        start_from(job, job_id(*before, axes), job_source);
     if (!ids.insert(job.id).second)
       throw UserError(
           fmt::format("{}: two jobs of the sweep have the name {}; every value of a key of "
-                      "[sweep.grid] and of the "
-                      "first key of [sweep.together] may appear once",
+                      "[sweep.grid], and every combination of those of [sweep.together], may "
+                      "appear once",
                       source.file.string(), job.id));
     jobs.push_back(std::move(job));
   }
@@ -200,20 +243,8 @@ const SweepJob& job_named(const std::vector<SweepJob>& jobs, const std::string& 
 
 Json values_json(const SweepJob& job) {
   Json values = Json::object();
-  for (const auto& [key, value] : job.values) {
-    const TomlNode node = parse_toml("x = " + value, key);
-    const TomlNode& parsed = node.find("x")->node;
-    if (const auto* real = parsed.get<double>())
-      values[key] = *real;
-    else if (const auto* integer = parsed.get<std::int64_t>())
-      values[key] = *integer;
-    else if (const auto* flag = parsed.get<bool>())
-      values[key] = *flag;
-    else if (const auto* text = parsed.get<std::string>())
-      values[key] = *text;
-    else
-      values[key] = value;
-  }
+  for (const auto& [key, value] : job.values)
+    values[key] = json_of(parse_toml("x = " + value, key).find("x")->node);
   return values;
 }
 

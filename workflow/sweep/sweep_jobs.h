@@ -6,6 +6,7 @@
 
 #include "core/io/json.h"
 #include "workflow/configuration/parameters.h"
+#include "workflow/sweep/study_axes.h"
 
 /// @file
 /// The jobs of a sweep. The keys of [sweep.together] are one axis, every key of [sweep.grid] is
@@ -14,10 +15,11 @@ namespace vitrel {
 
 struct SweepJob {
   /// Name of the folder, from the last parts of the keys: "packing_fraction-0.4_seed-1". Of the keys
-  /// that advance together, it has the first.
+  /// that advance together, it has the first, or as many as tell the jobs apart.
   std::string id;
   std::vector<std::pair<std::string, std::string>> values;  ///< dotted key, TOML text of the value
   Parameters parameters;
+  StudyLayout layout;          ///< the same for all jobs
   bool prepares_only = false;  ///< no key of [dynamics] is given: the job is a state, not a run
   std::string predecessor;     ///< the job of the ladder from whose end it starts; may be empty
 };

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -30,58 +29,60 @@ fs::path folder_of(const AnalysedRun& run) {
   return run.file.parent_path();
 }
 
-/// Adds the value in the row of another table, unknown if it has none.
-void add_value(Column& column, const Table& row) {
-  const Column* value = row.find(column.name);
-  column.value.push_back(value ? value->value.front() : unknown);
-  if (!column.error.empty())
-    column.error.push_back(value && !value->error.empty() ? value->error.front() : unknown);
+/// A row more, from the first row of another table; unknown where that lacks the column.
+void add_row(Table& table, const Table& row, std::size_t rows) {
+  for (const Column& column : row.columns)
+    if (!table.find(column.name))
+      table.columns.push_back({column.name, column.unit, {}, {}, column.labels});
+  for (Column& column : table.columns) {
+    column.value.resize(rows + 1, unknown);
+    if (!column.error.empty()) column.error.resize(rows + 1, unknown);
+    const Column* found = row.find(column.name);
+    if (!found) continue;
+    column.value[rows] = found->value.front();
+    if (found->error.empty()) continue;
+    column.error.resize(rows + 1, unknown);
+    column.error[rows] = found->error.front();
+  }
 }
 
-/// The summaries below each other; columns that a run does not have are unknown there.
-Table runs_table(const std::vector<AnalysedRun>& runs) {
-  Table table{"runs", "Averages over every run of the sweep, one run per row.", {}};
+Column column_of(const StudyAxis& axis) {
+  return {axis.column(), axis.unit, axis.value, {}, axis.labels};
+}
+
+/// Of the table of relaxation times, what the summary does not have.
+constexpr const char* of_relaxation[] = {"verdict",         "verdict_translation", "wave_number",
+                                         "tau_translation", "tau_rotation",        "nematic_order",
+                                         "orientation"};
+
+/// The summary of a run, and what is known of its relaxation.
+Table row_of(const AnalysedRun& run) {
+  Table row = *run.results.find("summary");
+  if (const Table* relaxation = run.results.find("relaxation"))
+    for (const char* name : of_relaxation)
+      if (const Column* column = relaxation->find(name); column && !row.find(name))
+        row.columns.push_back(*column);
+  return row;
+}
+
+Table runs_table(const AnalysedSweep& sweep) {
+  Table table{"runs",
+              "The jobs of the sweep, one per row: the values of its keys, the averages over every "
+              "run, relaxation times and verdicts.",
+              {}};
   Column jobs{"job", "1", {}, {}}, seeds{"seed", "1", {}, {}};
-  for (const AnalysedRun& run : runs) {
-    const Table& row = *run.results.find("summary");
+  std::size_t rows = 0;
+  for (const AnalysedRun& run : sweep.runs) {
     jobs.value.push_back(static_cast<double>(jobs.labels.size()));
     jobs.labels.push_back(run.name());
     seeds.value.push_back(static_cast<double>(run.seed()));
-    if (table.columns.empty())
-      table.columns = row.columns;
-    else
-      for (Column& column : table.columns) add_value(column, row);
+    add_row(table, row_of(run), rows++);
   }
-  table.columns.insert(table.columns.begin(), {std::move(jobs), std::move(seeds)});
+  std::vector<Column> first = {std::move(jobs)};
+  for (const StudyAxis& key : sweep.keys) first.push_back(column_of(key));
+  first.push_back(std::move(seeds));
+  table.columns.insert(table.columns.begin(), first.begin(), first.end());
   return table;
-}
-
-/// The unit of a number of the analysis.
-std::string unit_of(const std::string& name, const Results& results) {
-  for (const char* table : {"summary", "relaxation"})
-    if (const Table* found = results.find(table))
-      if (const Column* column = found->find(name)) return column->unit;
-  return "1";
-}
-
-/// NaN for other texts.
-double number(const std::string& json) {
-  const Json value = parse_json(json, "value");
-  return value.is_number() ? value.get<double>() : unknown;
-}
-
-/// Of a value of the sweep: numbers, or texts as the labels of codes.
-Column value_column(const std::vector<SeedAverage>& averages, std::size_t k) {
-  Column column{identifier(averages.front().values[k].first), "1", {}, {}};
-  const bool is_number = std::ranges::none_of(averages, [k](const SeedAverage& average) {
-    return std::isnan(number(average.values[k].second));
-  });
-  for (const SeedAverage& average : averages) {
-    const std::string& text = average.values[k].second;
-    column.value.push_back(is_number ? number(text) : static_cast<double>(column.labels.size()));
-    if (!is_number) column.labels.push_back(text);
-  }
-  return column;
 }
 
 /// Means with their errors, and half the width of their intervals.
@@ -102,7 +103,24 @@ void add_figure(const std::vector<SeedAverage>& averages, const std::string& nam
   if (has_errors) table.columns.push_back(std::move(scatter));
 }
 
-Table seeds_table(const std::vector<SeedAverage>& averages, const Results& units) {
+/// The numbers of a row; codes are none.
+Figures figures_of(const Table& row) {
+  Figures figures;
+  for (const Column& column : row.columns) {
+    if (!column.labels.empty()) continue;
+    figures.emplace_back(column.name, column.value.front());
+    if (!column.error.empty()) figures.emplace_back(column.name + "_error", column.error.front());
+  }
+  return figures;
+}
+
+Table seeds_table(const AnalysedSweep& sweep, const Table& runs) {
+  std::vector<JobResult> jobs;
+  for (std::size_t k = 0; k < sweep.runs.size(); ++k)
+    jobs.push_back({sweep.values[k], figures_of(row_of(sweep.runs[k]))});
+  const std::vector<SeedAverage> averages = seed_averages(jobs);
+  std::vector<SweptValues> values;
+  for (const SeedAverage& average : averages) values.push_back(average.values);
   Table table{
       "seeds",
       "Averages over the runs that differ in their seeds only, a row for every combination "
@@ -110,36 +128,14 @@ Table seeds_table(const std::vector<SeedAverage>& averages, const Results& units
       "<name>_interval: half the width of its 95 % confidence interval; <name>_scatter: scatter "
       "of the seeds over the errors of their runs, about 1 if these explain it.",
       {}};
-  const SeedAverage& first = averages.front();
-  for (std::size_t k = 0; k < first.values.size(); ++k)
-    table.columns.push_back(value_column(averages, k));
+  for (const StudyAxis& key : study_keys(values)) table.columns.push_back(column_of(key));
   Column seeds{"seeds", "1", {}, {}};
   for (const SeedAverage& average : averages)
     seeds.value.push_back(static_cast<double>(average.seeds));
   table.columns.push_back(std::move(seeds));
-  for (const AveragedFigure& figure : first.figures)
-    add_figure(averages, figure.name, unit_of(figure.name, units), table);
+  for (const AveragedFigure& figure : averages.front().figures)
+    add_figure(averages, figure.name, runs.find(figure.name)->unit, table);
   return table;
-}
-
-/// The values of its job; empty for a run that belongs to no sweep.
-SweptValues values_of(const AnalysedRun& run) {
-  const fs::path file = folder_of(run) / "params.json";
-  SweptValues values;
-  if (fs::exists(file))
-    read_json_as("the values of a job", file,
-                 [&](const Json& job) { values = swept_values(job.at("values")); });
-  return values;
-}
-
-void add_seeds(const std::vector<AnalysedRun>& runs, Results& results) {
-  std::vector<JobResult> jobs;
-  for (const AnalysedRun& run : runs)
-    if (SweptValues values = values_of(run); has_seeds(values))
-      jobs.push_back({std::move(values), job_figures({{"analyze", analysis_summary(run)}})});
-  if (jobs.empty()) return;
-  const std::vector<SeedAverage> averages = seed_averages(jobs);
-  results.tables.push_back(seeds_table(averages, runs.front().results));
 }
 
 struct Quantity {
@@ -152,10 +148,12 @@ constexpr Quantity of_preparation[] = {
     {"orientation_ratio", "1"}, {"nematic_order", "1"}, {"collisions", "1"},
     {"contact_number", "1"},    {"rattlers", "1"},      {"smallest_gap", "length"},
     {"overlaps", "1"},          {"wall_seconds", "s"}};
-/// What that of a run may say beyond its analysis. No times: tables of runs are reproducible.
+/// What that of a run may say beyond its analysis.
 constexpr Quantity of_run[] = {{"overlaps", "1"},
                                {"early_releases_per_collision", "1"},
-                               {"blocked_rotations_per_collision", "1"}};
+                               {"blocked_rotations_per_collision", "1"},
+                               {"wall_seconds", "s"},
+                               {"collisions_per_second_with_output", "1/s"}};
 
 /// Adds to the summary of the analysis what it does not have or does not know.
 void add_figures(const Json& job, std::span<const Quantity> quantities, Results& results) {
@@ -194,11 +192,6 @@ AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
   return run;
 }
 
-/// Densities are prepared to a goal, and miss it by rounding errors.
-std::tuple<double, std::uint64_t, fs::path> place(const AnalysedRun& run) {
-  return {std::round(run.packing_fraction() * 1e6), run.seed(), folder_of(run)};
-}
-
 /// What may differ between runs to which one law is fitted.
 bool is_free(const std::string& key) {
   return key == "system.packing_fraction" || key == "system.seed" || key == "dynamics.duration" ||
@@ -206,64 +199,131 @@ bool is_free(const std::string& key) {
          key.starts_with("output.");
 }
 
+/// Names of columns, for those who draw the tables.
+void add_axes(const std::vector<StudyAxis>& axes, Results& results) {
+  if (axes.empty()) return;
+  std::vector<std::string> series;
+  for (const StudyAxis& axis : std::span(axes).first(axes.size() - 1))
+    series.push_back(axis.column());
+  results.provenance.emplace_back("axis", axes.back().column());
+  results.provenance.emplace_back("series", fmt::format("{}", fmt::join(series, ",")));
+}
+
 /// The other keys that do differ between the jobs, with commas.
-std::string differing_keys(const std::vector<AnalysedRun>& runs) {
-  std::map<std::string, std::set<std::string>> values;
-  for (const AnalysedRun& run : runs)
-    for (const auto& [key, value] : values_of(run))
-      if (!is_free(key)) values[key].insert(value);
+std::string differing_keys(const AnalysedSweep& sweep) {
   std::vector<std::string> keys;
-  for (const auto& [key, different] : values)
-    if (different.size() > 1) keys.push_back(key);
+  for (const StudyAxis& key : sweep.keys)
+    if (!is_free(key.key) && key.distinct_values() > 1) keys.push_back(key.key);
+  std::ranges::sort(keys);
   return fmt::format("{}", fmt::join(keys, ", "));
+}
+
+/// Densities are prepared to a goal, and miss it by rounding errors.
+using Place = std::tuple<std::vector<double>, double, std::uint64_t, fs::path>;
+Place place_of(const AnalysedSweep& sweep, std::size_t job) {
+  const AnalysedRun& run = sweep.runs[job];
+  std::vector<double> on_axes;
+  for (const StudyAxis& axis : sweep.axes) on_axes.push_back(axis.value[job]);
+  return {std::move(on_axes), sweep.axes.empty() ? std::round(run.packing_fraction() * 1e6) : 0,
+          run.seed(), folder_of(run)};
+}
+
+/// The entries of these numbers.
+template <class T>
+void pick(const std::vector<std::size_t>& numbers, std::vector<T>& entries) {
+  std::vector<T> picked;
+  for (const std::size_t k : numbers) picked.push_back(std::move(entries[k]));
+  entries = std::move(picked);
+}
+
+void sort_jobs(AnalysedSweep& sweep) {
+  std::vector<std::size_t> order(sweep.runs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](std::size_t job) { return place_of(sweep, job); });
+  pick(order, sweep.runs);
+  pick(order, sweep.values);
+  for (std::vector<StudyAxis>* axes : {&sweep.keys, &sweep.axes})
+    for (StudyAxis& axis : *axes) pick(order, axis.value);
+}
+
+bool runs_through_seeds(const AnalysedSweep& sweep) {
+  return std::ranges::all_of(sweep.values, [](const auto& values) { return has_seeds(values); });
 }
 
 }  // namespace
 
-std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const AnalysisChoice& choice,
-                                       const AnalysisProgress& progress) {
-  std::vector<AnalysedRun> runs;
+std::string AnalysedSweep::label(std::size_t job) const {
+  std::vector<std::string> parts;
+  if (!axes.empty())
+    parts.push_back(axes_text(axes, job));
+  else
+    parts.push_back(fmt::format("φ = {:.6g}", runs[job].packing_fraction()));
+  const auto has_same_axes = [&](std::size_t other) {
+    return std::ranges::all_of(
+        axes, [&](const StudyAxis& axis) { return axis.value[other] == axis.value[job]; });
+  };
+  std::size_t same = 0;
+  for (std::size_t other = 0; other < runs.size(); ++other) same += has_same_axes(other);
+  if (same > 1) parts.push_back(fmt::format("seed {}", runs[job].seed()));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+AnalysedSweep analysed_sweep(const SweepProgress& progress_of_sweep, const AnalysisChoice& choice,
+                             const AnalysisProgress& progress) {
+  AnalysedSweep sweep;
   AnalysisProgress of_job = progress;
   if (progress.begin)
     of_job.begin = [&](const std::string& phase) {
-      progress.begin(
-          fmt::format("job {} of {}: {}", runs.size() + 1, sweep.finished.size(), phase));
+      progress.begin(fmt::format("job {} of {}: {}", sweep.runs.size() + 1,
+                                 progress_of_sweep.finished.size(), phase));
     };
-  for (const fs::path& job : sweep.finished) runs.push_back(analysed_job(job, choice, of_job));
-  std::sort(runs.begin(), runs.end(), [](const AnalysedRun& left, const AnalysedRun& right) {
-    return place(left) < place(right);
-  });
-  return runs;
+  StudyLayout layout;
+  for (const fs::path& folder : progress_of_sweep.finished) {
+    sweep.runs.push_back(analysed_job(folder, choice, of_job));
+    JobPlace place = job_place(folder);
+    sweep.values.push_back(std::move(place.values));
+    layout = std::move(place.layout);
+  }
+  sweep.keys = study_keys(sweep.values);
+  sweep.axes = study_axes(sweep.keys, layout);
+  sort_jobs(sweep);
+  return sweep;
 }
 
-GlassStudy glass_study(const std::vector<AnalysedRun>& runs) {
+GlassStudy glass_study(const AnalysedSweep& sweep) {
   std::vector<GlassRun> judged;
   std::size_t others = 0;
-  for (const AnalysedRun& run : runs) {
+  for (const AnalysedRun& run : sweep.runs) {
     if (run.glass) judged.push_back(*run.glass);
     others += !run.results.text("not_judged").empty();
   }
-  const std::string mixed = judged.empty() ? "" : differing_keys(runs);
+  const std::string mixed = judged.empty() ? "" : differing_keys(sweep);
   GlassStudy study = study_glass(std::move(judged), mixed);
   if (others > 0)
     study.remarks.push_back(fmt::format(
         "{} of {} runs cannot be judged, as their samples are not evenly spaced in time "
         "([output] samples)",
-        others, runs.size()));
+        others, sweep.runs.size()));
   return study;
 }
 
-Results results_of_sweep(const std::vector<AnalysedRun>& runs, const GlassStudy& study) {
+Results results_of_sweep(const AnalysedSweep& sweep, const GlassStudy& study) {
   Results results;
-  results.tables.push_back(runs_table(runs));
-  for (const AnalysedRun& run : runs)
+  results.tables.push_back(runs_table(sweep));
+  for (const AnalysedRun& run : sweep.runs)
     results.provenance.emplace_back(fmt::format("row_{}", results.provenance.size()),
                                     run.file.string());
-  add_seeds(runs, results);
+  if (runs_through_seeds(sweep)) results.tables.push_back(seeds_table(sweep, results.tables.front()));
   if (!study.runs.empty())
     for (Table& table : glass_tables(study)) results.tables.push_back(std::move(table));
   for (auto& note : glass_notes(study)) results.provenance.push_back(std::move(note));
+  add_axes(sweep.axes, results);
   return results;
+}
+
+const Table& averaged_jobs(const Results& results) {
+  const Table* seeds = results.find("seeds");
+  return seeds ? *seeds : *results.find("runs");
 }
 
 }  // namespace vitrel

@@ -57,7 +57,7 @@ function linearRange(plot, low, high) {
   return uPlot.rangeNum(low - margin, high + margin, 0.1, true);
 }
 
-function axisOptions(logarithmic, size) {
+function axisOptions(logarithmic, size, names) {
   const grid = { stroke: cssColour('--grid'), width: 1 };
   if (logarithmic) grid.filter = (plot, splits) => {
     const labelled = labelledOf(splits);
@@ -67,6 +67,7 @@ function axisOptions(logarithmic, size) {
     stroke: cssColour('--quiet'), font, size, grid, ticks: { stroke: cssColour('--line'), width: 1, size: 5 },
     values: (plot, splits) => logarithmic ? logarithmicLabels(splits) : linearLabels(splits),
   };
+  if (names) return { ...options, splits: () => names.map((_, k) => k), values: () => names, grid: { show: false } };
   if (!logarithmic) return options;
   return { ...options, splits: (plot, axis, low, high) => logarithmicSplits(low, high), filter: (plot, splits) => splits };
 }
@@ -103,7 +104,7 @@ function csvText(chart) {
   const quoted = (text) => `"${text.replaceAll('"', '""')}"`;
   const { variant, data } = chart;
   const header = [quoted(withUnit(chart.xSymbol, chart.xUnit))];
-  const columns = [data.x];
+  const columns = [chart.namesX ? data.x.map((x) => quoted(chart.namesX[x])) : data.x];
   variant.curves.forEach((curve, k) => {
     header.push(quoted(withUnit(curve.label, variant.unit)));
     columns.push(data.values[k]);
@@ -295,12 +296,13 @@ function readOut(chart) {
   const value = i === null || i === undefined || k === null ? null : chart.data.values[k]?.[i];
   if (value === null || value === undefined) return chart.readout.textContent = chart.hint;
   const note = chart.data.notes[k]?.[i];
-  chart.readout.textContent = `${chart.variant.curves[k].label}:  ${chart.xSymbol} = ${shortNumber(chart.data.x[i], 4)},  ` +
+  const x = chart.data.x[i];
+  chart.readout.textContent = `${chart.variant.curves[k].label}:  ${chart.xSymbol} = ${chart.namesX?.[x] ?? shortNumber(x, 4)},  ` +
     `${withError(value, chart.data.errors[k]?.[i])} ${chart.variant.unit}` + (note ? ` (${note})` : '');
 }
 
 /**
- * One chart in `host`. `description`: heading; xSymbol, xUnit; logX, logY; file, the name of its CSV; range, slopes, hint;
+ * One chart in `host`. `description`: heading; xSymbol, xUnit; namesX, what the abscissas 0, 1, 2 … stand for; logX, logY; file, the name of its CSV; range, slopes, hint;
  * variants, of which a select shows one: [{label, symbol, unit, curves, levels, uprights, rangeX}].
  * A curve: {label, x, value, error, noErrors (why some are missing), notes (said with the values), colour(), points: 'full' or
  * 'hollow' instead of a line, dashed, thin, id}. Curves are switched off by their `id`, in the legend of the chart or from
@@ -379,7 +381,7 @@ class Chart {
       padding: [10, 20, 0, 0],
       scales: { x: { ...scale(this.logX), range: rangeX ?? (this.logX ? logarithmicRange : undefined) },
                 y: { ...scale(this.logY), range: this.range ?? (this.logY ? logarithmicRange : linearRange) } },
-      axes: [axisOptions(this.logX, 30), axisOptions(this.logY, labelWidth)],
+      axes: [axisOptions(this.logX, 30, this.namesX), axisOptions(this.logY, labelWidth)],
       series: [{}, ...curves.map((curve) => seriesOptions(curve, !this.hidden.has(curve.id)))],
       legend: { show: false },
       cursor: { drag: { x: false, y: false }, focus: { prox: 1e6 }, points: { size: 7 } },

@@ -61,12 +61,8 @@ function curveOf(table, name, chart) {
   return { x: shown(x), value: shown(value), error: shown(error) };
 }
 
-/** Densities are ordered, and so are their colours. */
-function runColour(run) {
-  const all = runs.map((other) => other.packingFraction);
-  const low = Math.min(...all), high = Math.max(...all);
-  return orderedColour(high > low ? (run.packingFraction - low) / (high - low) : 0.5);
-}
+/** Runs are ordered, and so are their colours. */
+const runColour = (run) => orderedColour(runs.length > 1 ? runs.indexOf(run) / (runs.length - 1) : 0.5);
 
 const particlesOf = (group) => group === '_all' ? 'all particles' : 'species ' + group.slice(1);
 const groupName = (group, groups) => groups.length < 2 ? ''
@@ -169,7 +165,7 @@ function runLegends(charts) {
 
 function courseChart(run, chart) {
   const table = run.tables[chart.table], columns = table?.columns;
-  if (!columns?.[chart.x].value.length) return;
+  if (!(columns?.[chart.x].value.length > 1)) return;
   const isRound = run.tables.summary?.columns.rotors?.value[0] === 0;
   const shown = namedColumns(columns, chart.curves.filter(({ ofRotors }) => !(isRound && ofRotors)));
   if (!shown.length) return;
@@ -212,38 +208,73 @@ function coolingChart({ tables: { energies }, cooling }) {
   addChart('cooling', { heading: 'Temperature', xSymbol: 't', xUnit: timeUnit, logX: true, logY: true, file: 'cooling.csv', variants: [{ symbol: 'T', unit: 'kT', curves }] });
 }
 
-// Against the packing fraction
+// Against what the sweep runs through: the last axis; the others tell curves apart.
+
+const abscissa = study.axes.at(-1), seriesAxes = study.axes.slice(0, -1);
+const isOverDensity = abscissa.column.endsWith('packing_fraction') && !seriesAxes.length;
 
 const density = { xSymbol: 'φ', xUnit: '', rangeX: (plot, low, high) => {
   const space = Math.max(0.06 * (high - low), 0.004);
   return [low - space, high + space];
 } };
 
-const speed = { heading: 'Speed of the simulation', symbol: 'collisions per second', unit: '1/s', reason: 'a single measurement' };
+/** The axis of these values: names at equal distances, or numbers, on a logarithmic scale if they span more than a decade. */
+function axisOf({ column, symbol }) {
+  const { value, unit } = study.jobs.columns[column], xUnit = unitOf({ unit });
+  if (value.some((entry) => typeof entry === 'string')) {
+    const names = [...new Set(value)];
+    return { xSymbol: symbol, xUnit, namesX: names, rangeX: () => [-0.5, names.length - 0.5], place: (entry) => names.indexOf(entry) };
+  }
+  const logX = Math.min(...value) > 0 && Math.max(...value) > 10 * Math.min(...value);
+  const rangeX = (plot, low, high) => {
+    if (logX) return [low / (high / low) ** 0.04, high * (high / low) ** 0.04];
+    const space = 0.06 * (high - low) || 0.05 * Math.abs(high) || 1;
+    return [low - space, high + space];
+  };
+  return { xSymbol: symbol, xUnit, logX, rangeX, place: (entry) => entry };
+}
 
-function overDensity({ heading, symbol, unit, logY, reason }, values) {
-  const known = values.filter(({ value }) => value !== null && value !== undefined);
-  if (!known.length) return;
-  const reasons = known.filter(({ error }) => (error ?? null) === null).map(({ run }) => reason ?? noErrors(run));
-  const curve = { label: symbol, id: 0, points: 'full', colour: () => curveColour(0), x: known.map(({ run }) => run.packingFraction),
-                  value: known.map(({ value }) => value), error: known.map(({ error }) => error ?? null),
-                  noErrors: [...new Set(reasons)].join('; ') };
-  addChart('over-density', { heading, ...density, logY, file: fileName(heading), variants: [{ symbol, unit, curves: [curve] }] });
+const valueText = (value) => typeof value === 'string' ? value : shortNumber(value, 6);
+
+/** The rows of every curve, by its name. */
+function seriesOf(jobs) {
+  const series = new Map();
+  jobs.columns[abscissa.column].value.forEach((_, row) => {
+    const name = seriesAxes.map(({ column, symbol }) => `${symbol} = ${valueText(jobs.columns[column].value[row])}`).join(', ');
+    series.set(name, [...series.get(name) ?? [], row]);
+  });
+  return series;
+}
+
+function studyChart({ heading, symbol, scale, curves: [{ column }] }) {
+  const { jobs } = study, quantity = jobs.columns[column];
+  if (!quantity?.value.some((value) => value !== null)) return;
+  const { place, ...axis } = axisOf(abscissa), logY = scale === 'logarithmic' && quantity.value.some((value) => value > 0);
+  const uneven = runs.some((run) => !run.evenlySampled) ? 'samples unevenly spaced in time' : tooFewBlocks;
+  const curves = [...seriesOf(jobs)].map(([name, rows], k) => {
+    const known = rows.filter((row) => quantity.value[row] !== null);
+    const pick = (values) => known.map((row) => values?.[row] ?? null);
+    return { label: name || symbol, id: k, points: 'full', colour: () => curveColour(k), x: pick(jobs.columns[abscissa.column].value).map(place),
+             value: pick(quantity.value), error: pick(quantity.error), noErrors: quantity.error ? uneven : 'single numbers' };
+  }).filter(({ x }) => x.length);
+  addChart('study', { heading, ...axis, logY, range: ranges[scale], file: fileName(heading),
+    variants: [{ symbol, unit: unitOf(quantity), curves }] });
 }
 
 // Glass
 
 const kinds = ['translation', 'rotation', 'rotation in the nematic'];
-const orientations = [null, { label: 'orientations relax', kind: 1 }, { label: 'kept by nematic order', kind: 2 },
-                      { label: 'orientations do not relax within the run', kind: 6 }];
-const found = 0, lowerBound = 1, notEquilibrated = ', not equilibrated';
+/** By what the table says of a run. */
+const orientations = { 'relaxes': { label: 'orientations relax', kind: 1 }, 'nematic order': { label: 'kept by nematic order', kind: 2 },
+                       'does not relax': { label: 'orientations do not relax within the run', kind: 6 } };
+const found = 'found', lowerBound = 'lower bound only', notEquilibrated = ', not equilibrated';
 
 /** These rows of the table `relaxation` that have a value, as points: full, or hollow if the run is not in equilibrium. */
 function glassPoints(column, rows, label, colour) {
   const { packing_fraction: phi, [column]: { value, error } } = study.relaxation.columns;
   const verdict = study.relaxation.columns[column === 'tau_translation' ? 'verdict_translation' : 'verdict'];
   return [['full', ''], ['hollow', notEquilibrated]].map(([points, suffix]) => {
-    const chosen = rows.filter((k) => value[k] !== null && (verdict.value[k] === 0) === (points === 'full'));
+    const chosen = rows.filter((k) => value[k] !== null && (verdict.value[k] === 'equilibrated') === (points === 'full'));
     const pick = (values) => chosen.map((k) => values?.[k] ?? null);
     return { x: pick(phi.value), value: pick(value), error: pick(error), points,
              label: label + suffix, id: label + suffix, colour, noErrors: tooFewBlocks };
@@ -254,7 +285,7 @@ const glassRows = () => study.relaxation.columns.packing_fraction.value.map((_, 
 
 function timesOf(kind) {
   const { orientation, plateau } = study.relaxation.columns;
-  const nematic = (k) => orientation.value[k] === 2 || plateau.value[k] > 0;
+  const nematic = (k) => orientation.value[k] === 'nematic order' || plateau.value[k] > 0;
   const rows = glassRows().filter((k) => kind === 0 || nematic(k) === (kind === 2));
   return glassPoints(kind === 0 ? 'tau_translation' : 'tau_rotation', rows, kinds[kind], () => curveColour(kind));
 }
@@ -292,12 +323,12 @@ function fitsOf(law) {
   const columns = study.glass_fit.columns;
   const of = (column, k) => columns[column].value[k];
   const fits = columns.kind.value.map((_, k) => k)
-    .filter((k) => of('law', k) === law && of('kind', k) < kinds.length && [found, lowerBound].includes(of('verdict', k)))
+    .filter((k) => of('law', k) === law.name && [found, lowerBound].includes(of('verdict', k)))
     .map((k) => {
-      const name = kinds[of('kind', k)], colour = () => curveColour(of('kind', k));
+      const name = of('kind', k).split(',')[0], colour = () => curveColour(kinds.indexOf(name));
       const fit = { low: of('window_low', k), high: of('window_high', k), phiC: of('window_phi_c', k),
                     s: of('window_exponent', k), logPrefactor: of('window_log_prefactor', k) };
-      return { curves: lawCurves(name, laws[law], fit, colour), upright: markOf(name, columns, k, colour) };
+      return { curves: lawCurves(name, law, fit, colour), upright: markOf(name, columns, k, colour) };
     });
   return { curves: fits.flatMap(({ curves }) => curves), uprights: fits.map(({ upright }) => upright) };
 }
@@ -310,9 +341,9 @@ function timesChart() {
     return { label, symbol: 'τ', unit: timeUnit, curves: [...points, ...curves], uprights,
              rangeX: (plot, low, high) => density.rangeX(plot, low, Math.max(high, ...reach)) };
   };
-  const variants = study.glass_fit ? laws.map(({ name }, law) => variant('with ' + name, fitsOf(law)))
+  const variants = study.glass_fit ? laws.map((law) => variant('with ' + law.name, fitsOf(law)))
                                    : [variant('', { curves: [], uprights: [] })];
-  addChart('over-density', { heading: 'Relaxation times', ...density, logY: true, file: 'relaxation_times.csv', variants });
+  addChart('study', { heading: 'Relaxation times', ...density, logY: true, file: 'relaxation_times.csv', variants });
 }
 
 /** The order of rotors that have none is not zero, as there are so few. */
@@ -325,10 +356,10 @@ function orderByChance() {
 
 function orderChart() {
   const { orientation } = study.relaxation.columns;
-  const points = orientations.flatMap((kept, code) => !kept ? [] : glassPoints('nematic_order',
-    glassRows().filter((k) => orientation.value[k] === code), kept.label, () => curveColour(kept.kind)));
+  const points = Object.entries(orientations).flatMap(([name, kept]) => glassPoints('nematic_order',
+    glassRows().filter((k) => orientation.value[k] === name), kept.label, () => curveColour(kept.kind)));
   if (!points.length) return;
-  addChart('over-density', { heading: 'Nematic order', ...density, file: 'nematic_order.csv', range: () => [0, 1],
+  addChart('study', { heading: 'Nematic order', ...density, file: 'nematic_order.csv', range: () => [0, 1],
     variants: [{ symbol: 'S', unit: '', curves: [...points, orderByChance()] }] });
 }
 
@@ -342,27 +373,27 @@ function tellWaveNumbers() {
       `analysis.wave_numbers=[${shortNumber(Math.max(...values), 2)}]`);
 }
 
-function densityCharts() {
+/** Charts of the glass take the place of those of these columns. */
+const glassCharts = { tau_translation: timesChart, tau_rotation: () => {}, nematic_order: orderChart };
+
+function studyCharts() {
+  const hasGlass = study.relaxation && isOverDensity;
   byId('glass').hidden = !study.relaxation;
-  byId('fits').parentElement.hidden = !study.glass_fit;
+  byId('glass-note').hidden = !hasGlass;
+  byId('fits').parentElement.hidden = !study.glass_fit?.columns.kind.value.length;
   if (runs.length < 2) return;
-  if (study.relaxation) {
-    tellWaveNumbers();
-    timesChart();
+  if (study.relaxation) tellWaveNumbers();
+  for (const chart of chartsOf('study')) {
+    const ofGlass = hasGlass && glassCharts[chart.curves[0].column];
+    if (ofGlass) ofGlass();
+    else if (study.jobs) studyChart(chart);
   }
-  chartsOf('density').forEach(({ heading, symbol, scale, curves: [{ column }] }) => {
-    const found = runs.map((run) => ({ run, values: run.tables.summary?.columns[column] })).filter(({ values }) => values);
-    overDensity({ heading, symbol, unit: found.length ? unitOf(found[0].values) : '', logY: scale === 'logarithmic' },
-      found.map(({ run, values }) => ({ run, value: values.value[0], error: values.error?.[0] })));
-  });
-  if (study.relaxation) orderChart();
-  overDensity(speed, runs.map((run) => ({ run, value: run.collisionsPerSecond })));
 }
 
 // The page
 
 function showRun(player, run) {
-  const still = runs.length > 1 && run.movie?.time.length === 1
+  const still = runs.length > 1 && run.dynamics && run.movie?.time.length === 1
     ? ` Only the final state of this run is in the page: vitrel report ${run.name}/run.h5 makes a page with its movie.` : '';
   const dynamics = run.dynamics ? run.dynamics + '.' : '';
   player.load(run.movie, { label: run.label, note: run.movie ? dynamics + still : 'The run holds no frame.' });
@@ -378,9 +409,9 @@ function start() {
   if (runs.length > 1) byId('movie-run').append(selection('Run', marked, last, (k) => showRun(player, runs[k])));
   showRun(player, runs[last]);
   coolingChart(runs[last]);
-  densityCharts();
+  studyCharts();
   runLegends(chartsOf('motion', 'relaxation', 'structure').map(runsChart).filter(Boolean));
-  ['motion', 'relaxation', 'structure', 'over-density'].forEach(hideIfEmpty);
+  ['motion', 'relaxation', 'structure', 'study'].forEach(hideIfEmpty);
   recolour();
 }
 

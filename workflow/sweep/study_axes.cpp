@@ -1,0 +1,192 @@
+#include "workflow/sweep/study_axes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/io/quantity.h"
+#include "workflow/configuration/parameters.h"
+
+namespace vitrel {
+namespace {
+
+/// What a value is as numbers, or nothing.
+std::optional<std::vector<double>> numbers_of(const Json& value, const std::string& unit) {
+  if (value.is_number()) return std::vector{value.get<double>()};
+  if (value.is_string() && !unit.empty())
+    if (const auto number = quantity(value.get<std::string>(), unit)) return std::vector{*number};
+  if (!value.is_array() || value.empty()) return std::nullopt;
+  std::vector<double> numbers;
+  for (const Json& entry : value) {
+    if (!entry.is_number()) return std::nullopt;
+    numbers.push_back(entry.get<double>());
+  }
+  return numbers;
+}
+
+/// Whether the first entry of arrays stands for the one at k.
+bool follows_first(const std::vector<std::vector<double>>& arrays, std::size_t k) {
+  const double of_first = arrays.front()[k], ratio = of_first / arrays.front()[0];
+  const auto all = [&](auto&& holds) { return std::ranges::all_of(arrays, holds); };
+  return all([&](const auto& array) { return array[k] == of_first; }) ||
+         all([&](const auto& array) {
+           return std::abs(array[k] - ratio * array[0]) <= 1e-12 * std::abs(array[k]);
+         });
+}
+
+/// One number for every job, if the values can be told by it.
+std::optional<std::vector<double>> numbers_of(const std::vector<Json>& values,
+                                              const std::string& unit) {
+  std::vector<std::vector<double>> arrays;
+  for (const Json& value : values) {
+    auto numbers = numbers_of(value, unit);
+    if (!numbers || (!arrays.empty() && numbers->size() != arrays.front().size()))
+      return std::nullopt;
+    arrays.push_back(std::move(*numbers));
+  }
+  for (std::size_t k = 1; k < arrays.front().size(); ++k)
+    if (!follows_first(arrays, k)) return std::nullopt;
+  std::vector<double> first;
+  for (const std::vector<double>& array : arrays) first.push_back(array.front());
+  return first;
+}
+
+std::string category_text(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : json_text(value);
+}
+
+void set_categories(const std::vector<Json>& values, StudyAxis& axis) {
+  for (const Json& value : values) {
+    const std::string text = category_text(value);
+    const auto found = std::ranges::find(axis.labels, text);
+    axis.value.push_back(static_cast<double>(found - axis.labels.begin()));
+    if (found == axis.labels.end()) axis.labels.push_back(text);
+  }
+}
+
+/// The value of every job, null for one that lacks it.
+std::vector<Json> values_of(const std::string& key, const std::vector<SweptValues>& jobs) {
+  std::vector<Json> values;
+  for (const SweptValues& job : jobs) {
+    const auto found = std::ranges::find(job, key, &SweptValues::value_type::first);
+    values.push_back(found == job.end() ? Json() : parse_json(found->second, key));
+  }
+  return values;
+}
+
+StudyAxis axis_of(const std::string& key, const std::vector<SweptValues>& jobs) {
+  const std::optional<Field> field = parameter_field(key);
+  const std::string unit = field ? field->unit : "";
+  StudyAxis axis{key, field ? field->short_name() : key, "1", {}, {}};
+  const std::vector<Json> values = values_of(key, jobs);
+  if (auto numbers = numbers_of(values, unit)) {
+    axis.value = std::move(*numbers);
+    if (!unit.empty()) axis.unit = unit;
+  } else {
+    set_categories(values, axis);
+  }
+  return axis;
+}
+
+/// The parameters of two species have the same symbol.
+void tell_symbols_apart(std::vector<StudyAxis>& axes) {
+  for (StudyAxis& axis : axes) {
+    const auto same = std::ranges::count(axes, axis.symbol, &StudyAxis::symbol);
+    if (same > 1) axis.symbol = axis.key;
+  }
+}
+
+using Axes = std::vector<StudyAxis>;
+
+/// Leaves one of the keys that advance together.
+void reduce_together(const StudyLayout& layout, Axes& axes) {
+  const auto advances = [&](const StudyAxis& axis) {
+    return std::ranges::find(layout.together, axis.key) != layout.together.end();
+  };
+  std::set<std::vector<double>> steps;
+  for (std::size_t k = 0; k < axes.front().value.size(); ++k) {
+    std::vector<double> step;
+    for (const StudyAxis& axis : axes)
+      if (advances(axis)) step.push_back(axis.value[k]);
+    steps.insert(std::move(step));
+  }
+  const auto tells_all = [&](const StudyAxis& axis) {
+    return advances(axis) && !axis.is_category() && axis.distinct_values() == steps.size();
+  };
+  const auto is_wanted = [&](const StudyAxis& axis) {
+    return advances(axis) && axis.key == layout.axis;
+  };
+  auto kept = std::ranges::find_if(axes, is_wanted);
+  if (kept == axes.end()) kept = std::ranges::find_if(axes, tells_all);
+  if (kept == axes.end()) kept = std::ranges::find_if(axes, advances);
+  if (kept == axes.end()) return;
+  const std::string key = kept->key;
+  std::erase_if(axes, [&](const StudyAxis& axis) { return advances(axis) && axis.key != key; });
+}
+
+/// Those with one value say nothing, unless there are no others.
+void drop_constants(Axes& axes) {
+  const auto is_constant = [](const StudyAxis& axis) { return axis.distinct_values() < 2; };
+  if (std::ranges::all_of(axes, is_constant))
+    axes.resize(1);
+  else
+    std::erase_if(axes, is_constant);
+}
+
+void put_abscissa_last(const StudyLayout& layout, Axes& axes) {
+  auto abscissa = std::ranges::find_if(
+      axes, [&](const StudyAxis& axis) { return axis.key == layout.axis; });
+  if (abscissa == axes.end())
+    abscissa = std::ranges::max_element(axes, {}, [](const StudyAxis& axis) {
+      return axis.is_category() ? 0 : axis.distinct_values();
+    });
+  std::rotate(abscissa, abscissa + 1, axes.end());
+}
+
+}  // namespace
+
+SweptValues swept_values(const Json& values) {
+  SweptValues texts;
+  for (const auto& [key, value] : values.items()) texts.emplace_back(key, json_text(value));
+  return texts;
+}
+
+std::size_t StudyAxis::distinct_values() const {
+  return std::set<double>(value.begin(), value.end()).size();
+}
+
+std::string StudyAxis::text(std::size_t job) const {
+  if (is_category()) return symbol + ": " + labels[static_cast<std::size_t>(value[job])];
+  return fmt::format("{} = {:.6g}{}{}", symbol, value[job], unit == "1" ? "" : " ",
+                     unit == "1" ? "" : unit);
+}
+
+std::vector<StudyAxis> study_keys(const std::vector<SweptValues>& jobs) {
+  Axes keys;
+  if (jobs.empty()) return keys;
+  for (const auto& [key, value] : jobs.front())
+    if (key != seed_key) keys.push_back(axis_of(key, jobs));
+  tell_symbols_apart(keys);
+  return keys;
+}
+
+std::vector<StudyAxis> study_axes(std::vector<StudyAxis> axes, const StudyLayout& layout) {
+  if (axes.empty()) return axes;
+  reduce_together(layout, axes);
+  drop_constants(axes);
+  put_abscissa_last(layout, axes);
+  return axes;
+}
+
+std::string axes_text(const std::vector<StudyAxis>& axes, std::size_t job) {
+  std::vector<std::string> parts;
+  for (const StudyAxis& axis : axes) parts.push_back(axis.text(job));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace vitrel
