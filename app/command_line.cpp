@@ -104,7 +104,6 @@ void add_import(CLI::App& sub, AnalysisOptions& import) {
 std::vector<std::string> all_formats() {
   std::vector<std::string> names;
   for (const ExportFormat& format : export_formats()) names.push_back(format.name);
-  names.push_back("gnuplot");
   return names;
 }
 
@@ -258,23 +257,21 @@ class CommandLine : public ProgramCommandLine {
   }
 
   void add_export() {
-    CLI::App& sub =
-        add("export", "Write a state, a run or results in the format of another program.",
-            export_command, export_);
+    CLI::App& sub = add("export", "Write a state or a run in the format of another program.",
+                        export_command, export_);
     sub.footer(exit_codes + stopped_code);
-    add_file(sub, "file", export_.input, "State or run, or results of vitrel analyze")->required();
+    add_file(sub, "file", export_.input, "State or run")->required();
     add_choice(
         sub, "--to", export_.format, all_formats(), "FORMAT",
         "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in two dimensions also thesis (plain "
         "text, a line of t and all x, y, angle per frame); in three dimensions also one period "
         "with all images: geo (Gmsh), vti (voxels for VTK) or vtp (points for VTK; of several "
-        "frames a folder with a .pvd file for ParaView); of results: gnuplot (a folder of data and "
-        "scripts)")
+        "frames a folder with a .pvd file for ParaView)")
         ->required();
     add_import(sub, export_.import);
     add_output(sub, export_.output,
                "File or folder to write, which must not exist; default <file> with the new suffix "
-               "(.dat for thesis), <file>_vtp for several frames, or <results>_gnuplot");
+               "(.dat for thesis), or <file>_vtp for several frames");
     sub.add_option("--frames", export_.frames,
                    "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all; to "
                    "geo, to vti and with --images one, the last)");

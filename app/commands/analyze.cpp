@@ -56,8 +56,7 @@ int analyze_sweep(const AnalyzeOptions& options, const fs::path& folder) {
   Json runs = Json::array();
   for (std::size_t k = 0; k < analysed.runs.size(); ++k) {
     Json& run = runs.emplace_back(analysis_summary(analysed.runs[k]));
-    for (const auto& [key, value] : analysed.values[k])
-      run["values"][key] = parse_json(value, key);
+    for (const auto& [key, value] : analysed.values[k]) run["values"][key] = parse_json(value, key);
   }
   const GlassStudy study = glass_study(analysed);
   Results results = results_of_sweep(analysed, study);

@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/io/json.h"
 #include "workflow/analyze/analyze.h"
-#include "workflow/export/gnuplot.h"
 #include "workflow/export/trajectory_export.h"
 
 namespace vitrel {
@@ -24,23 +23,9 @@ fs::path new_output(const ExportOptions& options, const fs::path& default_output
   return output;
 }
 
-int export_results(const ExportOptions& options) {
-  const fs::path output = new_output(
-      options, options.input.parent_path() / (options.input.stem().string() + "_gnuplot"));
-  if (options.frames || options.shrink || options.voxels || options.images ||
-      !options.import.file.empty() || !options.import.overrides.empty())
-    throw UserError(
-        "--frames, --shrink, --voxels, --images, --params, --set: are for trajectories and "
-        "packings, but --to "
-        "gnuplot writes tables of results");
-  const std::vector<TextFile> files = gnuplot_files(read_results(options.input));
-  write_folder(output, files);
-  print_summary(options.print,
-                {{"output", output.string()}, {"format", "gnuplot"}, {"files", files.size()}});
-  return success;
-}
+}  // namespace
 
-int export_frames(const ExportOptions& options) {
+int export_command(const ExportOptions& options) {
   ExportRequest request = {options.input,
                            options.format,
                            {},
@@ -69,12 +54,6 @@ int export_frames(const ExportOptions& options) {
                               ": has the particles of a packing without their periodic images; "
                               "--images writes a table with them");
   return success;
-}
-
-}  // namespace
-
-int export_command(const ExportOptions& options) {
-  return options.format == "gnuplot" ? export_results(options) : export_frames(options);
 }
 
 }  // namespace vitrel

@@ -165,8 +165,8 @@ TEST_F(HabitsTest, AMisspeltWordComesWithTheNearest) {
                  "vitrel pair contact-time: --rotation: 'eular' is none of euler, constant; did "
                  "you mean 'euler'?");
   expect_refusal({"export", "run.h5", "--to", "thesi"},
-                 "vitrel export: --to: 'thesi' is none of gsd, xyz, csv, thesis, geo, vti, vtp, "
-                 "gnuplot; did you mean 'thesis'?");
+                 "vitrel export: --to: 'thesi' is none of gsd, xyz, csv, thesis, geo, vti, vtp; "
+                 "did you mean 'thesis'?");
 }
 
 TEST_F(HabitsTest, WhereNothingIsNearTheMessageSaysWhoListsWhatThereIs) {
@@ -226,9 +226,9 @@ TEST_F(HabitsTest, BashCompletesCommandsOptionsChoicesAndFiles) {
   EXPECT_THAT(offered(folder, {"ex"}), ElementsAre("export"));
   EXPECT_THAT(offered(folder, {"-"}), UnorderedElementsAre("-h", "--help", "--version"));
   EXPECT_THAT(offered(folder, {"export", "--to", ""}),
-              UnorderedElementsAre("gsd", "xyz", "csv", "thesis", "geo", "vti", "vtp", "gnuplot"));
+              UnorderedElementsAre("gsd", "xyz", "csv", "thesis", "geo", "vti", "vtp"));
   EXPECT_THAT(offered(folder, {"export", "run.h5", "--to", "=", "g"}),
-              UnorderedElementsAre("gsd", "geo", "gnuplot"));
+              UnorderedElementsAre("gsd", "geo"));
   EXPECT_THAT(offered(folder, {"export", "--to", "="}), Contains("thesis"));
   EXPECT_THAT(offered(folder, {"params", ""}),
               UnorderedElementsAre("prepare", "run", "analyze", "sweep", "pair"));
@@ -290,7 +290,7 @@ TEST_F(HabitsTest, TheCompletionOfZshNamesAllCommandsAndOptions) {
     }
   }
   EXPECT_THAT(script, HasSubstr("    pair) _vitrel_pair ;;"));
-  EXPECT_THAT(script, HasSubstr(":FORMAT:(gsd xyz csv thesis geo vti vtp gnuplot)'"));
+  EXPECT_THAT(script, HasSubstr(":FORMAT:(gsd xyz csv thesis geo vti vtp)'"));
   EXPECT_THAT(script, HasSubstr("':params:_files'"));
   EXPECT_THAT(script, HasSubstr("Run all jobs of [sweep]"));
   folder.write("_vitrel", script);

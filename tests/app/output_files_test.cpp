@@ -35,7 +35,8 @@ const std::vector<std::pair<Words, Words>> writers = {
     {{"report", "run.h5", "-o", "run.html"}, {"run.html"}},
     {{"export", "run.h5", "--to", "csv"}, {"run.csv"}},
     {{"export", "run.h5", "--to", "gsd"}, {"run.gsd"}},
-    {{"export", "run_results.h5", "--to", "gnuplot", "-o", "plots"}, {"plots"}},
+    {{"run", "p.toml", "-o", "space.h5", "--set", "system.dimension=3"}, {"space.h5"}},
+    {{"export", "space.h5", "--to", "vtp", "-o", "folder"}, {"folder"}},
     {{"sweep", "p.toml", "-o", "sweep"},
      {"sweep/job/run.json", "sweep/job/done.json", "sweep/job/state.h5"}}};
 
@@ -76,7 +77,7 @@ TEST_F(OutputFiles, LeaveTheUsersOwnFilesAlone) {
   fs::create_directory(folder_ / "own.partial");
   folder_.write("own.partial/notes.txt", "kept");
   for (const Words& words : {Words{"report", "run.h5", "-o", "own.html"},
-                             Words{"export", "run_results.h5", "--to", "gnuplot", "-o", "own"}})
+                             Words{"export", "space.h5", "--to", "vtp", "-o", "own"}})
     EXPECT_EQ(run(folder_.path(), words).code, 0);
   EXPECT_EQ(folder_.read("own.html.partial"), "kept");
   EXPECT_EQ(folder_.read("own.partial/notes.txt"), "kept");

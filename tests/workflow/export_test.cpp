@@ -111,33 +111,18 @@ TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
     EXPECT_EQ(outcome.output, "");
   };
   expect({"run.h5", "--to", "pdf"}, 2,
-         "'pdf' is none of gsd, xyz, csv, thesis, geo, vti, vtp, gnuplot");
+         "'pdf' is none of gsd, xyz, csv, thesis, geo, vti, vtp");
   expect({"run.h5", "--to", "xyz", "-o", "there.xyz"}, 2, "exists already");
   expect({"run.h5", "--to", "xyz", "--frames", "4"}, 2, "has 4 frame(s)");
   expect({"there.xyz", "--to", "gsd"}, 3, "is not recognised as H5MD, GSD, extended XYZ,");
   expect({"nowhere.h5", "--to", "gsd"}, 3, "nowhere.h5");
   expect({"run.h5", "--to", "gsd", "-o", "nowhere/run.gsd"}, 3, "nowhere/run.gsd");
-  expect({"run.h5", "--to", "gnuplot"}, 3, "holds no results");
-  expect({"results.h5", "--to", "gnuplot", "-o", "there.xyz"}, 2, "exists already");
-  expect({"results.h5", "--to", "gnuplot", "-o", "nowhere/plots"}, 3, "nowhere/plots");
-  expect({"results.h5", "--to", "gnuplot", "--frames", "1"}, 2, "--frames");
   expect({"results.h5", "--to", "csv"}, 3, "has no group particles");
   std::vector<std::string> left;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
     left.push_back(entry.path().filename().string());
   EXPECT_THAT(left, testing::UnorderedElementsAre("results.h5", "run.h5", "standard_error",
                                                   "standard_output", "there.xyz"));
-}
-
-TEST(Export, OfResultsIsAFolderOfCurves) {
-  const Folder folder("export_folder");
-  write_results(folder / "results.h5", {{{"t", "", {{"time", "time", {1, 2}, {}}}}}, {}});
-  const Outcome outcome = run(
-      folder.path(), {"export", "results.h5", "--to", "gnuplot", "-o", "plots", "--json", "-q"});
-  ASSERT_EQ(outcome.code, 0) << outcome.errors;
-  // A table of one column has no curve.
-  EXPECT_EQ(nlohmann::json::parse(outcome.output)["files"], 1);
-  EXPECT_TRUE(std::filesystem::exists(folder / "plots/t.dat"));
 }
 
 TEST(Export, GsdKeepsASpeciesOfSeveralShapes) {

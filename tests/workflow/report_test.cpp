@@ -284,14 +284,13 @@ std::string result_of(Results results) {
 }
 
 TEST(ReportPage, RunsThatCannotBeJudgedSayWhy) {
-  const Table times{
-      "relaxation_times",
-      "",
-      {report_example::plain("group", "1", {0, 1}), kinds_of_times({0, 0}),
-       report_example::plain("parameter", "1/length or 1", {2.4, 2.4}),
-       report_example::plain("tau", "time", {unknown, 5}),
-       report_example::plain("least", "time", {unknown, unknown}),
-       report_example::plain("most", "time", {0.25, unknown})}};
+  const Table times{"relaxation_times",
+                    "",
+                    {report_example::plain("group", "1", {0, 1}), kinds_of_times({0, 0}),
+                     report_example::plain("parameter", "1/length or 1", {2.4, 2.4}),
+                     report_example::plain("tau", "time", {unknown, 5}),
+                     report_example::plain("least", "time", {unknown, unknown}),
+                     report_example::plain("most", "time", {0.25, unknown})}};
   const std::string result = result_of({{times}, {{"not_judged", "uneven <samples>"}}});
   EXPECT_EQ(count(result, "<td>not judged: uneven &lt;samples&gt;</td>"), 1u);
   EXPECT_EQ(count(result, "<td>&lt; 0.25 √(m ab/kT)</td>"), 1u);
@@ -301,25 +300,25 @@ TEST(ReportPage, RunsThatCannotBeJudgedSayWhy) {
 }
 
 TEST(ReportPage, RelaxationTimesRelativeToTheCageAreThoseOfScattering) {
-  const std::string result = result_of(
-      {{{"relaxation_times",
-         "",
-         {report_example::plain("group", "1", {0}), kinds_of_times({4}),
-          report_example::plain("parameter", "1/length", {2.4}),
-          report_example::plain("tau", "time", {5})}}},
-       {}});
+  const std::string result =
+      result_of({{{"relaxation_times",
+                   "",
+                   {report_example::plain("group", "1", {0}), kinds_of_times({4}),
+                    report_example::plain("parameter", "1/length", {2.4}),
+                    report_example::plain("tau", "time", {5})}}},
+                 {}});
   EXPECT_EQ(count(result, "τ<sub>α</sub> relative to the cage</th><td>5 √(m ab/kT)</td>"), 1u);
   EXPECT_EQ(count(result, "F<sub>s</sub>(q, t) = 1/e at q = 2.4/√(ab)"), 1u);
 }
 
 TEST(ReportPage, RelaxationTimesOfFurtherAxesNameThem) {
-  const std::string result = result_of({{{"relaxation_times",
-                                          "",
-                                          {report_example::plain("group", "1", {0, 0, 0}),
-                                           kinds_of_times({1, 2, 3}),
-                                           report_example::plain("parameter", "1", {2, 2, 2}),
-                                           report_example::plain("tau", "time", {5, 4, 3})}}},
-                                        {}});
+  const std::string result =
+      result_of({{{"relaxation_times",
+                   "",
+                   {report_example::plain("group", "1", {0, 0, 0}), kinds_of_times({1, 2, 3}),
+                    report_example::plain("parameter", "1", {2, 2, 2}),
+                    report_example::plain("tau", "time", {5, 4, 3})}}},
+                 {}});
   EXPECT_EQ(count(result, "τ<sub>2</sub></th><td>5 √(m ab/kT)</td>"), 1u);
   EXPECT_EQ(count(result, "τ<sub>2</sub> of the middle axis</th><td>4 √(m ab/kT)</td>"), 1u);
   EXPECT_EQ(count(result, "τ<sub>2</sub> of the shortest axis</th><td>3 √(m ab/kT)</td>"), 1u);

@@ -264,9 +264,9 @@ ImportReport import_report(const Results& results) {
 }
 
 std::string AnalysedRun::name() const {
-  const bool in_job_folder = file.has_parent_path() &&
-                             (file.filename() == "run.h5" ||
-                              std::filesystem::exists(file.parent_path() / "params.json"));
+  const bool in_job_folder =
+      file.has_parent_path() &&
+      (file.filename() == "run.h5" || std::filesystem::exists(file.parent_path() / "params.json"));
   if (!in_job_folder) return file.stem().string();
   return std::filesystem::absolute(file).lexically_normal().parent_path().filename().string();
 }

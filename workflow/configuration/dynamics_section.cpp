@@ -172,9 +172,7 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
   visit.field({"brownian_step", "time",
                "Time τ_B between draws of the velocities. A free particle diffuses with D = kT "
                "τ_B/(2 m). Brownian dynamics only.",
-               bounds::time,
-               "",
-               "τ_B"},
+               bounds::time, "", "τ_B"},
               p.brownian_step);
   visit.field({"equilibration", "time", "Duration of the run before sampling starts, at time 0.",
                bounds::time_or_none},

@@ -143,16 +143,12 @@ void describe_collisions(DynamicsParameters& p, FieldVisitor& visit) {
   describe_restitution({"restitution", "",
                         "Coefficient of normal restitution, from 0 to 1 (elastic). As a table, a "
                         "function of the speed.",
-                        restitution_bounds,
-                        "",
-                        "e"},
+                        restitution_bounds, "", "e"},
                        p.restitution, visit);
   visit.field({"friction", "",
                "Coulomb's friction coefficient μ: 0 for smooth particles, inf for contacts that do "
                "not slip. Where there is friction, round particles spin, too.",
-               friction_bounds,
-               "",
-               "μ"},
+               friction_bounds, "", "μ"},
               p.friction);
   visit.field({"tangential_restitution",
                "",

@@ -178,10 +178,11 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
                          "job with the value before, and goes on with the stages that move "
                          "particles."},
                         p.sweep.ladder, std::string("system.packing_fraction"));
-            in.optional({"axis", "",
-                         "The key that charts and tables of the sweep run along. The default is the "
-                         "one with the most values that are numbers, seeds apart."},
-                        p.sweep.axis, std::string("system.packing_fraction"));
+            in.optional(
+                {"axis", "",
+                 "The key that charts and tables of the sweep run along. The default is the "
+                 "one with the most values that are numbers, seeds apart."},
+                p.sweep.axis, std::string("system.packing_fraction"));
             in.grid({"grid", "",
                      "Keys of this file in quotes, each with a list of values. Every combination "
                      "of values is a job."},
@@ -190,7 +191,8 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
                      "Keys that advance together, each with the same number of values. The first "
                      "values of all keys make a job, the second values the next, and so on. "
                      "Together with a grid, each of these jobs is combined with every job of the "
-                     "grid. Jobs are named after the keys of the grid and the first of these keys, or as "
+                     "grid. Jobs are named after the keys of the grid and the first of these keys, "
+                     "or as "
                      "many as it takes to tell the jobs apart."},
                     p.sweep.together);
           });

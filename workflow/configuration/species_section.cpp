@@ -89,9 +89,7 @@ void describe_system(SystemParameters& p, FieldVisitor& visit) {
        "Fraction of the box covered by particles: the sum of π a b divided by the area (of "
        "4π/3 a b c divided by the volume). It applies to the end of the preparation unless a "
        "reduced pressure ends it.",
-       bounds::packing_fraction,
-       "",
-       "φ"},
+       bounds::packing_fraction, "", "φ"},
       p.packing_fraction);
   visit.field({"seed", "", "Seed of all random numbers."}, p.seed);
   static constexpr const char* draws[] = {"quantiles", "random"};
@@ -118,7 +116,8 @@ void describe_species(Species& p, FieldVisitor& visit) {
                bounds::share_above_none},
               p.fraction);
   describe_optional_distribution(
-      {"aspect_ratio", "",
+      {"aspect_ratio",
+       "",
        "κ = a/b ≥ 1, the ratio of major to minor semi-axis: a number or a distribution. In three "
        "dimensions it defines a prolate spheroid a : a/κ : a/κ.",
        {},
@@ -126,7 +125,8 @@ void describe_species(Species& p, FieldVisitor& visit) {
        "κ"},
       p.aspect_ratio, 2, 1, visit);
   const Field ratios{
-      "aspect_ratios", "",
+      "aspect_ratios",
+      "",
       "In three dimensions, instead of aspect_ratio: [R_1, R_2] for the semi-axes a : a/R_1 : "
       "a/R_2, each a positive number or a distribution like that of aspect_ratio.",
       {},

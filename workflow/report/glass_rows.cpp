@@ -162,8 +162,7 @@ std::string result_rows(const Results& run, int dimension, const std::optional<F
 
 std::string relaxation_rows(const Results& study,
                             const std::map<std::string, std::string>& labels) {
-  return rows_of(study, "relaxation",
-                 [&](const Row& row) { return relaxation_row(row, labels); });
+  return rows_of(study, "relaxation", [&](const Row& row) { return relaxation_row(row, labels); });
 }
 
 std::string fit_rows(const Results& study) {

@@ -64,8 +64,8 @@ Page page_of(const std::filesystem::path& input, const AnalysisChoice& choice,
       return {subject, 1, packing_page(packing_page_data(input, choice, progress))};
     case PageSubject::run:
       return {subject, 1,
-              report_page(report_data(stored_or_analyzed(input, choice, progress),
-                                      known_system(choice)))};
+              report_page(
+                  report_data(stored_or_analyzed(input, choice, progress), known_system(choice)))};
   }
   return {};
 }

@@ -20,8 +20,8 @@ namespace vitrel {
 namespace {
 
 constexpr int error_digits = 3;
-// Charts of correlations need their wave numbers or lags; those of a study are no observables of one run.
-constexpr std::array<std::string_view, 4> without_charts = {"wave_numbers", "lag_times",
+// Charts need numbers of the run, wave numbers or lags; those of a study are no observables of one run.
+constexpr std::array<std::string_view, 5> without_charts = {"summary", "wave_numbers", "lag_times",
                                                             "relaxation", "glass_fit"};
 constexpr std::string_view on_the_fly = "on_the_fly";
 
@@ -145,6 +145,8 @@ Json table_data(const Table& table) {
 
 Json charts_data(const std::vector<Observable>& observables) {
   Json data = Json::array();
+  for (const Observable jobs = jobs_observable(); const Chart& chart : jobs.charts)
+    data.push_back(chart_data(jobs, chart));
   for (const Observable& observable : observables)
     for (const Chart& chart : observable.charts) data.push_back(chart_data(observable, chart));
   return data;

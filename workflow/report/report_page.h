@@ -34,12 +34,13 @@ struct ReportAxis {
 
 struct ReportData {
   std::string title;
-  std::string subtitle;                 ///< one line below it: what was simulated
-  std::vector<ReportRun> runs;          ///< shown in this order
-  Results study = {};                   ///< tables over all runs: runs, seeds, relaxation, glass_fit; notes
-  std::vector<ReportAxis> axes = {};    ///< the last one is the abscissa; empty: the packing fraction is
-  std::string parameters;               ///< TOML text
-  PageProvenance provenance;            ///< of the page, beside that of its runs
+  std::string subtitle;         ///< one line below it: what was simulated
+  std::vector<ReportRun> runs;  ///< shown in this order
+  Results study = {};           ///< tables over all runs: runs, seeds, relaxation, glass_fit; notes
+  std::vector<ReportAxis> axes =
+      {};                     ///< the last one is the abscissa; empty: the packing fraction is
+  std::string parameters;     ///< TOML text
+  PageProvenance provenance;  ///< of the page, beside that of its runs
   std::optional<FileUnits> units = {};  ///< of a file of another program
 };
 

@@ -140,10 +140,9 @@ void add_run(const AnalysedRun& run, const std::string& label, const KnownSystem
   data.parameters = reader.provenance().parameters;
   data.units = reader.units();
   if (has_particles_of_its_own(stored_parameters(reader)))
-    data.provenance.emplace_back(
-        "errors",
-        "of this realisation of sizes and shapes: every seed has its own "
-        "(system.draw), and differs by more");
+    data.provenance.emplace_back("errors",
+                                 "of this realisation of sizes and shapes: every seed has its own "
+                                 "(system.draw), and differs by more");
   for (const auto& row : reader.import_report()) data.provenance.push_back(row);
 }
 

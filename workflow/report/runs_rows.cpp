@@ -19,27 +19,26 @@ struct Quantity {
   bool is_of_motion = false;  ///< a state has none
 };
 
-constexpr Quantity quantities[] = {
-    {"Z", "compressibility_factor"},
-    {"βP/ρ", "reduced_pressure"},
-    {"τ<sub>α</sub>", "tau_translation"},
-    {"τ<sub>2</sub>", "tau_rotation"},
-    {"D", "diffusion"},
-    {"D<sub>r</sub>", "rotational_diffusion"},
-    {"η", "viscosity"},
-    {"E<sub>trans</sub>/N", "translational_energy", false, true},
-    {"E<sub>rot</sub>/N", "rotational_energy", false, true},
-    {"S", "nematic_order"},
-    {"ψ<sub>6</sub>", "hexatic_order"},
-    {"ρ", "orientation_ratio"},
-    {"contacts", "contact_number"},
-    {"early releases", "early_releases_per_collision"},
-    {"blocked rotations", "blocked_rotations_per_collision"},
-    {"collisions", "collisions", true},
-    {"speed", "collisions_per_second_with_output", true},
-    {"time", "wall_seconds"},
-    {"duration", "duration", false, true},
-    {"N", "particles", true}};
+constexpr Quantity quantities[] = {{"Z", "compressibility_factor"},
+                                   {"βP/ρ", "reduced_pressure"},
+                                   {"τ<sub>α</sub>", "tau_translation"},
+                                   {"τ<sub>2</sub>", "tau_rotation"},
+                                   {"D", "diffusion"},
+                                   {"D<sub>r</sub>", "rotational_diffusion"},
+                                   {"η", "viscosity"},
+                                   {"E<sub>trans</sub>/N", "translational_energy", false, true},
+                                   {"E<sub>rot</sub>/N", "rotational_energy", false, true},
+                                   {"S", "nematic_order"},
+                                   {"ψ<sub>6</sub>", "hexatic_order"},
+                                   {"ρ", "orientation_ratio"},
+                                   {"contacts", "contact_number"},
+                                   {"early releases", "early_releases_per_collision"},
+                                   {"blocked rotations", "blocked_rotations_per_collision"},
+                                   {"collisions", "collisions", true},
+                                   {"speed", "collisions_per_second_with_output", true},
+                                   {"time", "wall_seconds"},
+                                   {"duration", "duration", false, true},
+                                   {"N", "particles", true}};
 
 bool differs(const Column& column) {
   return std::ranges::any_of(column.value,
@@ -101,8 +100,7 @@ std::string runs_heading(const RunsTable& table, const PageUnits& units) {
     add(escaped(table.symbols[k]), table.values.find(table.keys[k])->unit);
   if (shown_seed(table.values)) add("seed", "1");
   for (const Quantity& quantity : quantities)
-    if (const Column* column = shown(table.values, quantity))
-      add(quantity.symbol, column->unit);
+    if (const Column* column = shown(table.values, quantity)) add(quantity.symbol, column->unit);
   add("run", "1");
   return "<tr>" + symbols + "</tr>\n<tr class=\"units\">" + unit_row + "</tr>\n";
 }

@@ -89,13 +89,12 @@ void write_job_folder(const SweepJob& job, const fs::path& folder) {
       fs::remove(folder / "done.json");
   }
   write_text(file, text);
-  write_text(folder / "params.json",
-             json_text({{"id", job.id},
-                        {"values", values_json(job)},
-                        {"together", job.layout.together},
-                        {"axis", job.layout.axis.value_or("")}},
-                       2) +
-                 "\n");
+  write_text(folder / "params.json", json_text({{"id", job.id},
+                                                {"values", values_json(job)},
+                                                {"together", job.layout.together},
+                                                {"axis", job.layout.axis.value_or("")}},
+                                               2) +
+                                         "\n");
 }
 
 std::optional<ParameterDifference> change_since_begun(const SweepJob& job, const fs::path& folder) {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -95,10 +95,10 @@ StudyAxis axis_of(const std::string& key, const std::vector<SweptValues>& jobs) 
 
 /// The parameters of two species have the same symbol.
 void tell_symbols_apart(std::vector<StudyAxis>& axes) {
-  for (StudyAxis& axis : axes) {
-    const auto same = std::ranges::count(axes, axis.symbol, &StudyAxis::symbol);
-    if (same > 1) axis.symbol = axis.key;
-  }
+  std::map<std::string, int> uses;
+  for (const StudyAxis& axis : axes) ++uses[axis.symbol];
+  for (StudyAxis& axis : axes)
+    if (uses[axis.symbol] > 1) axis.symbol = axis.key;
 }
 
 using Axes = std::vector<StudyAxis>;
@@ -139,8 +139,8 @@ void drop_constants(Axes& axes) {
 }
 
 void put_abscissa_last(const StudyLayout& layout, Axes& axes) {
-  auto abscissa = std::ranges::find_if(
-      axes, [&](const StudyAxis& axis) { return axis.key == layout.axis; });
+  auto abscissa =
+      std::ranges::find_if(axes, [&](const StudyAxis& axis) { return axis.key == layout.axis; });
   if (abscissa == axes.end())
     abscissa = std::ranges::max_element(axes, {}, [](const StudyAxis& axis) {
       return axis.is_category() ? 0 : axis.distinct_values();

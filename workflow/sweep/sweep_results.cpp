@@ -313,7 +313,8 @@ Results results_of_sweep(const AnalysedSweep& sweep, const GlassStudy& study) {
   for (const AnalysedRun& run : sweep.runs)
     results.provenance.emplace_back(fmt::format("row_{}", results.provenance.size()),
                                     run.file.string());
-  if (runs_through_seeds(sweep)) results.tables.push_back(seeds_table(sweep, results.tables.front()));
+  if (runs_through_seeds(sweep))
+    results.tables.push_back(seeds_table(sweep, results.tables.front()));
   if (!study.runs.empty())
     for (Table& table : glass_tables(study)) results.tables.push_back(std::move(table));
   for (auto& note : glass_notes(study)) results.provenance.push_back(std::move(note));

@@ -17,7 +17,7 @@ struct AnalysedSweep {
   std::vector<AnalysedRun> runs;
   std::vector<SweptValues> values;  ///< of each run
   std::vector<StudyAxis> keys;      ///< all but the seed
-  std::vector<StudyAxis> axes;      ///< those that differ (study_axes); the last one is the abscissa
+  std::vector<StudyAxis> axes;  ///< those that differ (study_axes); the last one is the abscissa
 
   /// What tells a job from the others: "κ = 2, φ = 0.5, seed 1".
   std::string label(std::size_t job) const;
