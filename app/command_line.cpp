@@ -228,6 +228,8 @@ class CommandLine : public ProgramCommandLine {
     CLI::Option* status =
         sub.add_flag("--status", sweep_.status,
                      "Only print how far every job is, and what has changed in the file since");
+    sub.add_flag("--dry-run", sweep_.dry_run, "Print the jobs and what they are expected to cost")
+        ->excludes(status);
     CLI::Option* job = sub.add_option(
         "--job", sweep_.job, "Run this job only; other processes may run other jobs meanwhile");
     std::vector<std::string> programs;

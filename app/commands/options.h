@@ -96,6 +96,7 @@ struct SweepOptions {
   int parallel = 0;              ///< jobs at a time; 0: not given
   double wall_time = 0;          ///< seconds; 0: no limit
   bool status = false;           ///< only print how far every job is
+  bool dry_run = false;          ///< only print the jobs and what they are expected to cost
   std::string job;               ///< the only job to run; empty: all
   std::string export_as;  ///< program to write the sweep for instead of running it; empty: run
 };

@@ -9,6 +9,7 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
 #include "workflow/sweep/sweep_export.h"
+#include "workflow/sweep/sweep_plan.h"
 #include "workflow/sweep/sweep_status.h"
 
 namespace vitrel {
@@ -64,6 +65,10 @@ SweepOutcome run_jobs(const SweepOptions& options) {
 int sweep_command(const SweepOptions& options) {
   if (!options.export_as.empty()) return export_workflow(options);
   if (options.status) return print_status(options);
+  if (options.dry_run) {
+    print_text(sweep_plan(jobs_of(options), options.output, options.parallel));
+    return success;
+  }
   const SweepOutcome outcome = run_jobs(options);
   print_table(options, jobs_of(options));
   if (outcome.failed > 0) {

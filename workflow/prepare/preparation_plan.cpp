@@ -8,7 +8,6 @@
 #include "core/state/typical_scales.h"
 #include "edmd/hard_fluid.h"
 #include "workflow/configuration/start_state.h"
-#include "workflow/prepare/stage_cost.h"
 
 namespace vitrel {
 namespace {
@@ -52,19 +51,30 @@ std::string system_plan(const Parameters& p) {
 }
 
 template <int Dim>
-std::string preparation_plan(const Parameters& p, const Configuration<Dim>& some) {
+std::vector<StageCost> stage_costs(const Parameters& p, const Configuration<Dim>& some,
+                                   double start) {
   const HardFluid fluid(some);
-  StageScene scene{fluid, static_cast<double>(p.system.particles), typical_time(some), 0, 0};
-  if (start_state(p.stages)) scene.packing_fraction = packing_fraction(some);
-  std::string text;
-  StageCost all;
+  StageScene scene{fluid, static_cast<double>(p.system.particles), typical_time(some), start, 0};
+  std::vector<StageCost> costs;
   for (const Stage& stage : p.stages) {
     scene.end = end_of_stage(stage, p.system, scene.packing_fraction);
-    const StageCost cost = expected_cost(stage, scene);
-    text +=
-        fmt::format("stage        {}{}\n", stage_description(stage, scene.end), cost_text(cost));
-    scene.packing_fraction = cost.packing_fraction;
-    all.add(cost);
+    costs.push_back(expected_cost(stage, scene));
+    costs.back().goal = scene.end;
+    scene.packing_fraction = costs.back().packing_fraction;
+  }
+  return costs;
+}
+
+template <int Dim>
+std::string preparation_plan(const Parameters& p, const Configuration<Dim>& some) {
+  const double start = start_state(p.stages) ? packing_fraction(some) : 0;
+  const std::vector<StageCost> costs = stage_costs(p, some, start);
+  std::string text;
+  StageCost all;
+  for (std::size_t k = 0; k < costs.size(); ++k) {
+    text += fmt::format("stage        {}{}\n", stage_description(p.stages[k], costs[k].goal),
+                        cost_text(costs[k]));
+    all.add(costs[k]);
   }
   return text +
          fmt::format("prepares in  {}{:.2g} s\n", all.is_foreseen ? "" : "more than ", all.seconds);
@@ -76,6 +86,8 @@ std::string preparation_plan(PrepareRequest request) {
 
 template Configuration2 representative_particles(const Parameters&);
 template Configuration3 representative_particles(const Parameters&);
+template std::vector<StageCost> stage_costs(const Parameters&, const Configuration2&, double);
+template std::vector<StageCost> stage_costs(const Parameters&, const Configuration3&, double);
 template std::string preparation_plan(const Parameters&, const Configuration2&);
 template std::string preparation_plan(const Parameters&, const Configuration3&);
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "workflow/prepare/prepare.h"
+#include "workflow/prepare/stage_cost.h"
 
 /// @file
 /// What a preparation would do, and what each of its stages is expected to cost.
@@ -14,6 +16,12 @@ Configuration<Dim> representative_particles(const Parameters& parameters);
 
 /// A line about the system.
 std::string system_plan(const Parameters& parameters);
+
+/// What the stages of a preparation are expected to cost, in their order. `start`: the packing fraction of the state that
+/// the first stage takes, if it takes one.
+template <int Dim>
+std::vector<StageCost> stage_costs(const Parameters& parameters, const Configuration<Dim>& some,
+                                   double start);
 
 /// A line for each stage. `some`: the particles of the given state that the first stage takes, else
 /// some that represent them.

@@ -22,6 +22,7 @@ struct StageCost {
   double seconds = 0;           ///< on one core of a processor of our days
   bool is_foreseen = true;      ///< false: how many sweeps it takes shows only when they are made
   double packing_fraction = 0;  ///< at the end
+  double goal = 0;              ///< the packing fraction that the stage is to reach (end_of_stage)
 
   void add(const StageCost& other);
 };

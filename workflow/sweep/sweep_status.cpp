@@ -13,6 +13,7 @@
 #include "core/io/text_file.h"
 #include "workflow/sweep/job_folder.h"
 #include "workflow/sweep/seed_averages.h"
+#include "workflow/sweep/text_table.h"
 
 namespace vitrel {
 namespace {
@@ -46,8 +47,6 @@ constexpr ShownFigure shown_figures[] = {
     {"overlaps", "overlaps", "{:.0f}", false},
     {"seconds", "wall_seconds", "{:.2f}", true}};
 
-constexpr const char* missing = "–";
-
 /// Null unless the job is done.
 Json done_of(const fs::path& folder) {
   return job_stage(folder) == JobStage::done ? job_done(folder) : Json();
@@ -55,30 +54,7 @@ Json done_of(const fs::path& folder) {
 
 std::string number_cell(const Figures& figures, const ShownFigure& shown) {
   const double value = figure(figures, shown.key);
-  return std::isnan(value) ? missing : fmt::format(fmt::runtime(shown.format), value);
-}
-
-/// In characters, not bytes.
-std::size_t width_of(const std::string& utf8) {
-  return static_cast<std::size_t>(
-      std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-/// Without the columns that are empty but for their title; the first `texts` columns are flush left.
-std::string table_text(std::vector<Row> rows, std::size_t texts) {
-  std::vector<std::string> text(rows.size());
-  for (std::size_t k = 0; k < rows[0].size(); ++k) {
-    const auto is_missing = [k](const Row& row) { return row[k] == missing; };
-    if (rows.size() > 1 && std::all_of(rows.begin() + 1, rows.end(), is_missing)) continue;
-    std::size_t width = 0;
-    for (const Row& row : rows) width = std::max(width, width_of(row[k]));
-    for (std::size_t n = 0; n < rows.size(); ++n)
-      text[n] += k < texts ? fmt::format("{:<{}}  ", rows[n][k], width)
-                           : fmt::format("{:>{}}  ", rows[n][k], width);
-  }
-  std::string all;
-  for (std::string& line : text) all += line.erase(line.find_last_not_of(' ') + 1) + '\n';
-  return all;
+  return std::isnan(value) ? missing_cell : fmt::format(fmt::runtime(shown.format), value);
 }
 
 std::string job_rows(const std::vector<SweepJob>& jobs, const fs::path& folder) {
@@ -90,7 +66,7 @@ std::string job_rows(const std::vector<SweepJob>& jobs, const fs::path& folder) 
     const Figures figures = job_figures(done_of(job_folder));
     for (const ShownFigure& shown : shown_figures) row.push_back(number_cell(figures, shown));
   }
-  return table_text(std::move(rows), 2);
+  return text_table(rows, 2);
 }
 
 std::vector<SeedAverage> averages_of(const std::vector<SweepJob>& jobs, const fs::path& folder) {
@@ -128,7 +104,7 @@ std::string seed_rows(const std::vector<SeedAverage>& averages) {
         row.push_back(with_error(figure.mean, figure.half_width));
       }
   }
-  return table_text(std::move(rows), 1) + scatter_text(averages);
+  return text_table(rows, 1) + scatter_text(averages);
 }
 
 Json seeds_json(const std::vector<SeedAverage>& averages) {

@@ -49,6 +49,20 @@ const labelWidth = (plot, labels) => 18 + 7 * Math.max(3, ...(labels ?? []).map(
 /** Not widened to whole decades. */
 const logarithmicRange = (plot, low, high) => low > 0 ? [0.8 * low, 1.25 * high] : [0.1, 1];
 
+/** The ends of the curves shown, with their errors; on a logarithmic axis only what is positive. */
+function extentOf(plot, chart, low, high) {
+  chart.data.values.forEach((values, k) => {
+    if (!plot.series[k + 1].show || !chart.data.errors[k]) return;
+    values.forEach((value, i) => {
+      const error = chart.data.errors[k][i];
+      if (value === null || error === null || (chart.logY && !(value > 0))) return;
+      if (value > error || !chart.logY) low = Math.min(low, value - error);
+      high = Math.max(high, value + error);
+    });
+  });
+  return [low, high];
+}
+
 /** A thousandth of the values at least: below that, the rounding errors of a constant would fill the chart. */
 function linearRange(plot, low, high) {
   if (low === null) return [0, 1];
@@ -375,12 +389,13 @@ class Chart {
   draw() {
     this.plot?.destroy();
     const { curves, levels = [], uprights = [], rangeX = this.rangeX } = this.variant;
+    const range = this.range ?? (this.logY ? logarithmicRange : linearRange);
     const scale = (logarithmic) => logarithmic ? { distr: 3, time: false } : { time: false };
     this.plot = new uPlot({
       ...this.size(),
       padding: [10, 20, 0, 0],
       scales: { x: { ...scale(this.logX), range: rangeX ?? (this.logX ? logarithmicRange : undefined) },
-                y: { ...scale(this.logY), range: this.range ?? (this.logY ? logarithmicRange : linearRange) } },
+                y: { ...scale(this.logY), range: (plot, low, high) => range(plot, ...(low === null ? [low, high] : extentOf(plot, this, low, high))) } },
       axes: [axisOptions(this.logX, 30, this.namesX), axisOptions(this.logY, labelWidth)],
       series: [{}, ...curves.map((curve) => seriesOptions(curve, !this.hidden.has(curve.id)))],
       legend: { show: false },
