@@ -21,7 +21,7 @@ class HardFluid {
 
   /// Z = βP/ρ at the packing fraction φ.
   double compressibility_factor(double phi) const;
-  /// The collisions that one particle has per unit of time, at kT = 1.
+  /// The collisions per particle and unit of time, at kT = 1; each particle takes part in twice as many.
   double collision_rate(double phi) const;
 
   int dimension() const { return dimension_; }

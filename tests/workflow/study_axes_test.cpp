@@ -93,7 +93,7 @@ TEST(StudyAxes, KeysThatAdvanceTogetherAreOneAxis) {
   // Only the times tell the steps apart.
   EXPECT_THAT(keys_of(study_axes(keys, {{"a.phi", "a.time"}, {}})), ElementsAre("a.n", "a.time"));
   EXPECT_THAT(keys_of(study_axes(keys, {{"a.phi", "a.time"}, "a.phi"})),
-              ElementsAre("a.n", "a.phi"));
+              ElementsAre("a.time", "a.n", "a.phi"));
 }
 
 TEST(StudyAxes, WithoutANumberThatTellsTheStepsApartTheFirstKeyStandsForAll) {

@@ -12,6 +12,7 @@
 #include "workflow/configuration/soft_particles.h"
 #include "workflow/configuration/start_state.h"
 #include "workflow/prepare/prepare.h"
+#include "workflow/run/brownian_step.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run_checkpoint.h"
 #include "workflow/run/run_start.h"
@@ -42,6 +43,14 @@ class Observers final : public Observer<Dim> {
   Observer<Dim>* second_;
 };
 
+/// The collisions that a particle has had per unit of time.
+template <int Dim>
+double collision_rate(const RunState<Dim>& state) {
+  const double time = state.configuration.time - state.start_time;
+  return 2 * static_cast<double>(state.counters.collisions) /
+         (static_cast<double>(state.configuration.size()) * time);
+}
+
 /// One request at work.
 template <int Dim>
 class RunJob {
@@ -71,6 +80,7 @@ class RunJob {
     else
       advance(continues);
     warn_of_exceptions();
+    warn_of_long_steps();
     check_last_state();
     return {stored_.complete, was_complete, std::move(stored_.state), stored_.wall_seconds};
   }
@@ -233,6 +243,13 @@ class RunJob {
            "dynamics.contact_duration is not well below the time between collisions");
   }
 
+  void warn_of_long_steps() const {
+    const DynamicsParameters& p = request_.parameters.dynamics;
+    if (p.kind != DynamicsParameters::Kind::brownian) return;
+    const std::string text = long_step_text(p.brownian_step, collision_rate(stored_.state));
+    if (!text.empty()) log_line(log_, "warning: " + text);
+  }
+
   void check_last_state() const {
     if (!stops_on_overlap()) return;
     const ExactCheck<Dim> check = exact_check(stored_.state.configuration);
@@ -299,6 +316,8 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
       {"wall_seconds", outcome.wall_seconds},
       {"collisions_per_second", collisions / (outcome.wall_seconds - state.output_seconds)},
       {"collisions_per_second_with_output", collisions / outcome.wall_seconds}};
+  if (dynamics.kind == DynamicsParameters::Kind::brownian)
+    summary["brownian_step_in_gaps"] = step_in_gaps(dynamics.brownian_step, collision_rate(state));
   if (is_dissipative(dynamics) || dynamics.contact)
     summary["dissipated_energy"] = counters.dissipated;
   if (dynamics.driving) summary["supplied_energy"] = counters.supplied;

@@ -45,7 +45,8 @@ RunCost run_cost(const Parameters& p, const Configuration<Dim>& some) {
   const HardFluid fluid(some);
   const bool is_round = fluid.is_round();
   RunCost cost;
-  cost.collisions = particles * time * fluid.collision_rate(p.system.packing_fraction);
+  cost.collision_rate = 2 * fluid.collision_rate(p.system.packing_fraction);
+  cost.collisions = 0.5 * particles * time * cost.collision_rate;
   cost.events = HardFluid::events_per_collision * cost.collisions;
   // Each change of the velocities predicts all particles, at about the cost of an event.
   cost.seconds =

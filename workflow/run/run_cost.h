@@ -10,6 +10,7 @@ namespace vitrel {
 
 struct RunCost {
   double collisions = 0;
+  double collision_rate = 0;  ///< the collisions in which a particle takes part, per unit of time
   double events = 0;
   double seconds = 0;       ///< on one core of a processor of our days
   double memory_bytes = 0;  ///< of the process, without correlations on the fly

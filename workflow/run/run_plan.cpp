@@ -5,6 +5,7 @@
 #include "workflow/configuration/soft_particles.h"
 #include "workflow/configuration/start_state.h"
 #include "workflow/prepare/preparation_plan.h"
+#include "workflow/run/brownian_step.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run.h"
 #include "workflow/run/run_cost.h"
@@ -62,6 +63,13 @@ double free_disk(const fs::path& output) {
   return static_cast<double>(fs::space(fs::absolute(output).parent_path(), unknown).available);
 }
 
+/// A warning of Brownian steps that are too long.
+std::string step_text(const DynamicsParameters& p, double collision_rate) {
+  if (p.kind != DynamicsParameters::Kind::brownian) return "";
+  const std::string text = long_step_text(p.brownian_step, collision_rate);
+  return text.empty() ? text : fmt::format("warning      {}\n", text);
+}
+
 template <int Dim>
 std::string cost_text(const RunRequest& request) {
   const Parameters& p = request.parameters;
@@ -74,6 +82,7 @@ std::string cost_text(const RunRequest& request) {
              "memory, {:.3g} MB on disk\n",
              slows ? "at most " : "", cost.events, cost.seconds, memory / 1e6,
              cost.disk_bytes / 1e6) +
+         step_text(p.dynamics, cost.collision_rate) +
          room_text(memory, physical_memory(), "memory") +
          room_text(cost.disk_bytes, free_disk(request.output), "disk");
 }

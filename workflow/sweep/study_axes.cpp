@@ -103,30 +103,41 @@ void tell_symbols_apart(std::vector<StudyAxis>& axes) {
 
 using Axes = std::vector<StudyAxis>;
 
-/// Leaves one of the keys that advance together.
-void reduce_together(const StudyLayout& layout, Axes& axes) {
-  const auto advances = [&](const StudyAxis& axis) {
-    return std::ranges::find(layout.together, axis.key) != layout.together.end();
-  };
-  std::set<std::vector<double>> steps;
-  for (std::size_t k = 0; k < axes.front().value.size(); ++k) {
-    std::vector<double> step;
-    for (const StudyAxis& axis : axes)
-      if (advances(axis)) step.push_back(axis.value[k]);
-    steps.insert(std::move(step));
+/// How many different combinations of values these axes have.
+std::size_t combinations_of(const std::vector<const StudyAxis*>& axes, std::size_t jobs) {
+  std::set<std::vector<double>> all;
+  for (std::size_t k = 0; k < jobs; ++k) {
+    std::vector<double> values;
+    for (const StudyAxis* axis : axes) values.push_back(axis->value[k]);
+    all.insert(std::move(values));
   }
-  const auto tells_all = [&](const StudyAxis& axis) {
-    return advances(axis) && !axis.is_category() && axis.distinct_values() == steps.size();
+  return all.size();
+}
+
+/// Leaves as few of the keys that advance together as it takes to tell their steps apart.
+void reduce_together(const StudyLayout& layout, Axes& axes) {
+  std::vector<const StudyAxis*> together;
+  for (const StudyAxis& axis : axes)
+    if (std::ranges::count(layout.together, axis.key) > 0) together.push_back(&axis);
+  if (together.empty()) return;
+  const std::size_t jobs = axes.front().value.size();
+  const std::size_t steps = combinations_of(together, jobs);
+  const auto is_wanted = [&](const StudyAxis* axis) { return axis->key == layout.axis; };
+  const auto tells_all = [&](const StudyAxis* axis) {
+    return !axis->is_category() && axis->distinct_values() == steps;
   };
-  const auto is_wanted = [&](const StudyAxis& axis) {
-    return advances(axis) && axis.key == layout.axis;
-  };
-  auto kept = std::ranges::find_if(axes, is_wanted);
-  if (kept == axes.end()) kept = std::ranges::find_if(axes, tells_all);
-  if (kept == axes.end()) kept = std::ranges::find_if(axes, advances);
-  if (kept == axes.end()) return;
-  const std::string key = kept->key;
-  std::erase_if(axes, [&](const StudyAxis& axis) { return advances(axis) && axis.key != key; });
+  std::ranges::stable_partition(together, tells_all);
+  std::ranges::stable_partition(together, is_wanted);
+  std::vector<const StudyAxis*> kept;
+  std::set<std::string> dropped;
+  for (const StudyAxis* axis : together) {
+    const std::size_t before = combinations_of(kept, jobs);
+    kept.push_back(axis);
+    if (kept.size() == 1 || combinations_of(kept, jobs) > before) continue;
+    kept.pop_back();
+    dropped.insert(axis->key);
+  }
+  std::erase_if(axes, [&](const StudyAxis& axis) { return dropped.contains(axis.key); });
 }
 
 /// Those with one value say nothing, unless there are no others.

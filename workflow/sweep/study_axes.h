@@ -47,8 +47,8 @@ struct StudyLayout {
 std::vector<StudyAxis> study_keys(const std::vector<SweptValues>& jobs);
 
 /// Those of these keys that differ. The last one is the abscissa of charts, the others tell curves apart. Of keys that
-/// advance together, there is only the first one that is a number and has another value in each of these steps, or else the
-/// first one. The abscissa is that of the layout, or else the one with the most different numbers, the earlier of two.
+/// advance together, there are only as many as tell these steps apart: the one that the layout wants, else one that is a
+/// number and another one in each step, else the first ones. The abscissa is that of the layout, or else the one with the most different numbers, the earlier of two.
 std::vector<StudyAxis> study_axes(std::vector<StudyAxis> keys, const StudyLayout& layout);
 
 /// "κ = 2, φ = 0.5"; empty without axes.
