@@ -4,7 +4,7 @@ option(VITREL_REQUIRE_ALL_TESTS "Refuse to leave out tests because a program or 
 set(VITREL_MISSING "")
 
 # Programs are looked for where the environment says; their paths are VITREL_<PROGRAM>.
-foreach(program chromium clang-tidy gmsh lmp readelf snakemake)
+foreach(program chromium clang-tidy gmsh lmp pdftoppm readelf snakemake)
   string(TOUPPER VITREL_${program} variable)
   find_program(${variable} ${program})
   if(NOT ${variable})

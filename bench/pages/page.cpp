@@ -24,6 +24,7 @@ std::string page(const std::string& title, const std::string& subtitle, const Js
                                            {"uplot_licence", shared("vendor/uplot/LICENSE")},
                                            {"uplot", shared("vendor/uplot/uPlot.iife.min.js")},
                                            {"common", shared("page/common.js")},
+                                           {"vector", shared("page/vector.js")},
                                            {"charts", shared("page/charts.js")},
                                            {"script", std::string(asset("pages/bench.js"))}});
 }

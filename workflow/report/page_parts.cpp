@@ -138,6 +138,7 @@ std::string whole_page(PageParts parts) {
                  {"uplot_licence", text("vendor/uplot/LICENSE")},
                  {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
                  {"common", text("page/common.js")},
+                 {"vector", text("page/vector.js")},
                  {"charts", text("page/charts.js")},
                  {"picture", text("page/picture.js")},
                  {"player", text("page/player.js")},

@@ -131,9 +131,8 @@ function csvText(chart) {
   return [header.join(','), ...rows].join('\n') + '\n';
 }
 
-function download(name, text) {
-  element('a', { href: 'data:text/csv;charset=utf-8,' + encodeURIComponent(text), download: name }).click();
-}
+const download = (name, address) => element('a', { href: address, download: name }).click();
+const textAddress = (type, text) => `data:${type};charset=utf-8,` + encodeURIComponent(text);
 
 // Drawing
 
@@ -315,9 +314,30 @@ function readOut(chart) {
     `${withError(value, chart.data.errors[k]?.[i])} ${chart.variant.unit}` + (note ? ` (${note})` : '');
 }
 
+/** What a curve looks like, from x on at the height y. */
+function drawSwatch(context, curve, x, y) {
+  const ratio = devicePixelRatio;
+  context.strokeStyle = context.fillStyle = curve.colour();
+  context.lineWidth = 2 * ratio;
+  context.setLineDash(curve.dashed ? [4 * ratio, 3 * ratio] : []);
+  context.beginPath();
+  if (curve.points) {
+    context.arc(x + 7 * ratio, y, 3.5 * ratio, 0, 2 * Math.PI);
+  } else {
+    context.moveTo(x, y);
+    context.lineTo(x + 14 * ratio, y);
+  }
+  if (curve.points === 'full') context.fill();
+  context.stroke();
+  context.setLineDash([]);
+}
+
+const allCharts = [];
+const printedSize = { width: 360, height: 250 };  // about half the width of a sheet
+
 /**
- * One chart in `host`. `description`: heading; xSymbol, xUnit; namesX, what the abscissas 0, 1, 2 … stand for; logX, logY; file, the name of its CSV; range, slopes, hint;
- * variants, of which a select shows one: [{label, symbol, unit, curves, levels, uprights, rangeX}].
+ * One chart in `host`. `description`: heading; xSymbol, xUnit; namesX, what the abscissas 0, 1, 2 … stand for; logX, logY; file,
+ * the name of its CSV; range, slopes, hint; variants, of which a select shows one: [{label, symbol, unit, curves, levels, uprights, rangeX}].
  * A curve: {label, x, value, error, noErrors (why some are missing), notes (said with the values), colour(), points: 'full' or
  * 'hollow' instead of a line, dashed, thin, id}. Curves are switched off by their `id`, in the legend of the chart or from
  * outside (show); the legend names the first of each.
@@ -329,6 +349,7 @@ class Chart {
     this.hidden = new Set();
     this.variant = this.variants[0];
     this.build();
+    allCharts.push(this);
     new ResizeObserver(() => this.resize()).observe(host);
     recoloured.push(() => { if (this.host.isConnected) this.choose(this.variants.indexOf(this.variant)); });
   }
@@ -351,12 +372,83 @@ class Chart {
   }
 
   tools() {
-    const button = element('button', { type: 'button', class: 'link' }, 'CSV');
-    button.setAttribute('aria-label', `Save the curves of ${this.heading} as CSV`);
-    button.addEventListener('click', () => download(this.file, csvText(this)));
     const row = element('div', { class: 'tools' });
-    row.append(button);
+    const add = (format, what, address) => {
+      const button = element('button', { type: 'button', class: 'link' }, format);
+      button.setAttribute('aria-label', `Save ${what} ${this.heading} as ${format}`);
+      button.addEventListener('click', () => download(this.file.replace('.csv', '.' + format.toLowerCase()), address()));
+      row.append(button);
+    };
+    add('CSV', 'the curves of', () => textAddress('text/csv', csvText(this)));
+    add('SVG', 'the chart', () => textAddress('image/svg+xml', this.svg()));
+    add('PNG', 'the chart', () => this.png());
     return row;
+  }
+
+  /** With titles and legend, which on the page stand around the plot. */
+  svg() {
+    const size = this.size(), context = new SvgContext(...this.figureSize());
+    this.drawFigure(context, () => plotOn(context, this.options(size), this.columns()));
+    return context.text(devicePixelRatio);
+  }
+
+  png() {
+    const canvas = element('canvas');
+    [canvas.width, canvas.height] = this.figureSize();
+    const context = canvas.getContext('2d');
+    this.drawFigure(context, () => context.drawImage(this.plot.ctx.canvas, 0, 0));
+    return canvas.toDataURL('image/png');
+  }
+
+  /** Of the curves that are shown: [{curve, x, y}] below the plot, in rows; nothing of a single one. */
+  legendPlaces() {
+    const shown = this.variant.curves.filter((curve, k, all) => !this.hidden.has(curve.id) && all.findIndex(({ id }) => id === curve.id) === k);
+    const context = document.createElement('canvas').getContext('2d'), { width } = this.size();
+    context.font = font;
+    let x = 0, row = 0;
+    return shown.length < 2 ? [] : shown.map((curve) => {
+      const length = 34 + context.measureText(curve.label).width;
+      if (x > 0 && x + length > width) { x = 0; ++row; }
+      x += length;
+      return { curve, x: x - length, y: 18 * row };
+    });
+  }
+
+  figureSize() {
+    const { width, height } = this.size(), rows = this.legendPlaces().at(-1);
+    return [width, height + 48 + (rows ? rows.y + 22 : 0)].map((length) => Math.round(length * devicePixelRatio));
+  }
+
+  drawFigure(context, drawPlot) {
+    const ratio = devicePixelRatio, { width, height } = this.size(), [all, below] = this.figureSize();
+    const write = (text, x, y, align) => {
+      context.textAlign = align;
+      context.fillText(text, x * ratio, y * ratio);
+    };
+    context.fillStyle = cssColour('--card');
+    context.fillRect(0, 0, all, below);
+    context.save();
+    context.translate(0, 22 * ratio);
+    drawPlot();
+    context.restore();
+    context.font = `${12 * ratio}px system-ui, sans-serif`;
+    context.fillStyle = cssColour('--ink');
+    write(withUnit(this.variant.symbol, this.variant.unit), 4, 15, 'left');
+    write(withUnit(this.xSymbol, this.xUnit), width - 20, height + 38, 'right');
+    for (const { curve, x, y } of this.legendPlaces()) {
+      drawSwatch(context, curve, (x + 4) * ratio, (height + 57 + y) * ratio);
+      context.fillStyle = cssColour('--ink');
+      write(curve.label, x + 22, height + 61 + y, 'left');
+    }
+  }
+
+  /** The plot as vectors beside the canvas, for the paper. */
+  print() {
+    const context = new SvgContext(printedSize.width * devicePixelRatio, printedSize.height * devicePixelRatio);
+    plotOn(context, this.options(printedSize), this.columns());
+    this.printed = element('div', { class: 'printed' });
+    this.printed.innerHTML = context.text(devicePixelRatio);
+    this.frame.append(this.printed);
   }
 
   choose(k) {
@@ -388,11 +480,20 @@ class Chart {
 
   draw() {
     this.plot?.destroy();
+    this.plot = new uPlot(this.options(this.size()), this.columns(), this.frame);
+  }
+
+  /** As uPlot wants them. */
+  columns() {
+    return [this.data.x, ...this.data.values.map((column) => column.map((value) => this.logY && !(value > 0) ? null : value))];
+  }
+
+  options(size) {
     const { curves, levels = [], uprights = [], rangeX = this.rangeX } = this.variant;
     const range = this.range ?? (this.logY ? logarithmicRange : linearRange);
     const scale = (logarithmic) => logarithmic ? { distr: 3, time: false } : { time: false };
-    this.plot = new uPlot({
-      ...this.size(),
+    return {
+      ...size,
       padding: [10, 20, 0, 0],
       scales: { x: { ...scale(this.logX), range: rangeX ?? (this.logX ? logarithmicRange : undefined) },
                 y: { ...scale(this.logY), range: (plot, low, high) => range(plot, ...(low === null ? [low, high] : extentOf(plot, this, low, high))) } },
@@ -411,8 +512,7 @@ class Chart {
         setSeries: [(plot, k, options) => { if (options.focus !== undefined) this.focused = k > 0 ? k - 1 : null; }],
         setCursor: [() => readOut(this)],
       },
-    }, [this.data.x, ...this.data.values.map((column) => column.map((value) =>
-      this.logY && !(value > 0) ? null : value))], this.frame);
+    };
   }
 
   resize() {
@@ -425,6 +525,18 @@ class Chart {
     this.variant.curves.forEach((curve, k) => { if (curve.id === id) this.plot.setSeries(k + 1, { show: shown }); });
   }
 }
+
+// Paper is light, and has no canvas that would blur.
+
+addEventListener('beforeprint', () => {
+  const wasDark = isDark();
+  if (wasDark) { root.style.colorScheme = 'light'; recolour(); }
+  allCharts.filter(({ plot }) => plot).forEach((chart) => chart.print());
+  addEventListener('afterprint', () => {
+    allCharts.forEach(({ printed }) => printed?.remove());
+    if (wasDark) { root.style.colorScheme = 'dark'; recolour(); }
+  }, { once: true });
+});
 
 /** Names a curve and switches it off and on. */
 function legendButton(curve, shown, toggle) {
