@@ -71,7 +71,10 @@ class EventDrivenRun {
       const double stop = next_stop();
       if (engine_->advance(stop, state_.counters) == Engine<Dim>::Stop::block_end) return false;
       if (stop == next_sample_time()) observe(plan_.observer, state_.next_sample, stop);
-      if (stop == next_tick_time()) observe(plan_.ticks.observer, state_.next_tick, stop);
+      if (stop == next_tick_time()) {
+        observe(plan_.ticks.observer, state_.next_tick, stop);
+        if (stop > 0 && plan_.is_over && plan_.is_over(stop)) return true;
+      }
       if (stop == next_step_time()) change_velocities();
       if (stop >= plan_.end_time && std::min(next_sample_time(), next_tick_time()) > plan_.end_time)
         return true;

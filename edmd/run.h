@@ -53,6 +53,8 @@ struct RunPlan {
   Observer<Dim>* observer = nullptr;
   std::function<void(const RunState<Dim>&)> at_block_end;
   Ticks<Dim> ticks = {};
+  /// Called after every tick after time 0; true ends the run there.
+  std::function<bool(double time)> is_over = {};
 };
 
 /// Runs to the end, or to the end of the block in which the run control requests a stop. A sample or tick that

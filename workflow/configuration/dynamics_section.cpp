@@ -164,6 +164,30 @@ void describe_initial_velocities(DynamicsParameters& p, FieldVisitor& visit) {
   p.initial_velocities = is_split ? InitialVelocities::split : kind;
 }
 
+void describe_duration(DynamicsParameters& p, FieldVisitor& visit) {
+  const Field field{"duration", "time",
+                    "Duration of the sampled part of the run. As a table, the run ends as soon as "
+                    "it has lasted so many relaxation times.",
+                    bounds::time};
+  bool has_goal = p.relaxation_times.has_value();
+  double times = p.relaxation_times.value_or(20);
+  visit.value_or_table(
+      field, has_goal, [&](FieldVisitor& in) { in.field(field, p.duration); },
+      [&](FieldVisitor& in) {
+        in.field(
+            {"relaxation_times",
+             "",
+             "The run ends after so many of the longer of the relaxation times of translation "
+             "and, if particles are not round, rotation, as correlations on the fly give them. "
+             "This is looked at after at_most/2, at_most/4 …",
+             {1, 1e6}},
+            times);
+        in.field({"at_most", "time", "Duration if the relaxation is slower.", bounds::time},
+                 p.duration);
+      });
+  p.relaxation_times = has_goal ? std::optional(times) : std::nullopt;
+}
+
 void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
   visit.field({"kind", "",
                "Free flight and collisions (newtonian), or the same with all velocities redrawn "
@@ -177,8 +201,7 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
   visit.field({"equilibration", "time", "Duration of the run before sampling starts, at time 0.",
                bounds::time_or_none},
               p.equilibration);
-  visit.field({"duration", "time", "Duration of the sampled part of the run.", bounds::time},
-              p.duration);
+  describe_duration(p, visit);
   describe_collisions(p, visit);
   visit.field({"on_overlap", "",
                "Action if two particles overlap: stop with exit code 4, or apply and count the "

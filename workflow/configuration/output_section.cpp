@@ -102,6 +102,10 @@ void validate_output(const Parameters& parameters) {
                                 show(duration)));
   };
   if (p.spacing == OutputParameters::Spacing::linear) {
+    samples.require(
+        p.interval || !parameters.dynamics.relaxation_times, "interval",
+        "is missing; the length of a run that ends by its relaxation times is not known "
+        "before, so that the interval must be given, or spacing = \"logarithmic\"");
     const double interval = sample_interval(parameters);
     within(interval, "interval");
     samples.require(duration / interval <= 1e8, "interval",

@@ -39,7 +39,12 @@ void collect_places(const TomlNode& node, const std::string& key,
 Parameters read(const TomlNode& root) {
   Parameters parameters;
   collect_places(root, "", parameters.given);
-  read_parameters(root, fields(parameters), [&] { validate(parameters); });
+  read_parameters(root, fields(parameters), [&] {
+    // What tells the relaxation times that end the run.
+    if (parameters.dynamics.relaxation_times && !parameters.output.correlations)
+      parameters.output.correlations.emplace();
+    validate(parameters);
+  });
   return parameters;
 }
 
@@ -329,7 +334,7 @@ std::optional<ParameterDifference> forbidden_change(const std::string& before,
         if (key == "output.checkpoint_interval" || key == "prepare.quality_sweeps") return true;
         // The state is read at the start only, and may be elsewhere now, or gone.
         if (key == "prepare.stage.0.file") return true;
-        if (key == "dynamics.duration" && is_longer) return true;
+        if (key.starts_with("dynamics.duration") && is_longer) return true;
         return key.starts_with("analysis.") ||
                (work == Work::preparation &&
                 (key.starts_with("dynamics.") || key.starts_with("output.")));

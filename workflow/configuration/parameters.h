@@ -71,7 +71,9 @@ struct DynamicsParameters {
   Kind kind = Kind::newtonian;
   double brownian_step = 0.1;
   double equilibration = 10;
-  double duration = 100;
+  double duration = 100;  ///< at most, if relaxation times end the run
+  /// The run ends as soon as it has lasted so many of them (workflow/run/known_relaxation.h).
+  std::optional<double> relaxation_times = {};
   RestitutionParameters restitution;
   double friction = 0, tangential_restitution = 0;
   std::vector<PairLawParameters> pairs;

@@ -14,6 +14,7 @@
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/brownian_step.h"
 #include "workflow/run/correlations_file.h"
+#include "workflow/run/known_relaxation.h"
 #include "workflow/run/run_checkpoint.h"
 #include "workflow/run/run_start.h"
 #include "workflow/storage/checkpoint_file.h"
@@ -174,6 +175,8 @@ class RunJob {
                         save();
                       }};
     if (correlator_) plan.ticks = {correlator_->options().interval, &*correlator_};
+    if (request_.parameters.dynamics.relaxation_times)
+      plan.is_over = [this](double time) { return is_known(time); };
     const StageReport report = run_or_keep_failed_state(options, plan);
     stored_.wall_seconds = timer.seconds();
     stored_.complete = report.end == StageEnd::reached;
@@ -181,6 +184,18 @@ class RunJob {
     writer.synchronize();
     writer.close();
     save();
+  }
+
+  /// Whether the run has lasted as many relaxation times as it should.
+  bool is_known(double time) const {
+    const DynamicsParameters& p = request_.parameters.dynamics;
+    if (!is_time_to_look(time, correlator_->options().interval, p.duration)) return false;
+    const double relaxation = known_relaxation(*correlator_);
+    if (!(time >= *p.relaxation_times * relaxation)) return false;
+    log_line(log_,
+             fmt::format("the run ends after {:g}, which is {:.3g} relaxation times of {:.4g}",
+                         time, time / relaxation, relaxation));
+    return true;
   }
 
   /// The checkpoint before that of the end must be one of before the end again, however short the rest is.

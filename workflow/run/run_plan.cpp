@@ -77,10 +77,11 @@ std::string cost_text(const RunRequest& request) {
   const double correlations = p.output.correlations ? correlator_bytes(p) : 0;
   const double memory = cost.memory_bytes + correlations;
   const bool slows = (is_dissipative(p.dynamics) || p.dynamics.contact) && !p.dynamics.driving;
+  const bool is_bound = slows || p.dynamics.relaxation_times;
   return fmt::format(
              "expects      {}{:.2g} events, {:.2g} s after the preparation, {:.3g} MB of "
              "memory, {:.3g} MB on disk\n",
-             slows ? "at most " : "", cost.events, cost.seconds, memory / 1e6,
+             is_bound ? "at most " : "", cost.events, cost.seconds, memory / 1e6,
              cost.disk_bytes / 1e6) +
          step_text(p.dynamics, cost.collision_rate) +
          room_text(memory, physical_memory(), "memory") +
@@ -99,7 +100,9 @@ std::string plan_text(RunRequest request) {
               ? fmt::format("dynamics     brownian, step {}\n", p.dynamics.brownian_step)
               : std::string("dynamics     newtonian\n");
   text += p.dynamics.contact ? contact_text(*p.dynamics.contact) : hard_contact_text(p.dynamics);
-  text += fmt::format("time         {} to equilibrate, then {}\n", p.dynamics.equilibration,
+  const auto& times = p.dynamics.relaxation_times;
+  text += fmt::format("time         {} to equilibrate, then {}{}\n", p.dynamics.equilibration,
+                      times ? fmt::format("{} relaxation times or at most ", *times) : "",
                       p.dynamics.duration);
   text +=
       fmt::format("writes       {}, {} frames; checkpoint every {} s\n", request.output.string(),

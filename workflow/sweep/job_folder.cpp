@@ -21,7 +21,7 @@ Work work_in(const fs::path& folder) {
 
 /// Of a finished job. Others make its run longer or its analysis another one.
 bool may_change_unnoticed(const std::string& key) {
-  return !key.starts_with("analysis.") && key != "dynamics.duration";
+  return !key.starts_with("analysis.") && !key.starts_with("dynamics.duration");
 }
 
 void refuse_other_parameters(const fs::path& folder, const std::string& before,
