@@ -162,7 +162,8 @@ void read_parameters(const TomlNode& root, const FieldVisitor::Inside& describe,
 
 /// The field with this dotted key, which counts the entries of lists ("species.0.mass"), whether or not it is given; nothing
 /// if there is none. An entry of an array is part of the array's field.
-std::optional<Field> find_field(const FieldVisitor::Inside& describe, const std::string& dotted_key);
+std::optional<Field> find_field(const FieldVisitor::Inside& describe,
+                                const std::string& dotted_key);
 
 /// Throws BadValue for the first number outside the bounds of its field.
 void check_bounds(const FieldVisitor::Inside& describe);

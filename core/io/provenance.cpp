@@ -90,6 +90,7 @@ void write_provenance(h5::Group& group, const Provenance& provenance) {
   write_text(group, "parent", provenance.parent);
   write_text(group, "started", provenance.started);
   group.set_attribute("wall_seconds", provenance.wall_seconds);
+  if (!provenance.model.empty()) write_text(group, "model", provenance.model);
 }
 
 void replace_parameters(h5::Group& group, const std::string& toml) {
@@ -112,6 +113,7 @@ Provenance read_provenance(const h5::Group& group) {
   provenance.parent = read_text(group, "parent");
   provenance.started = read_text(group, "started");
   read_number(group, "wall_seconds", provenance.wall_seconds);
+  provenance.model = read_text(group, "model");
   return provenance;
 }
 

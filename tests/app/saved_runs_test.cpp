@@ -164,12 +164,11 @@ TEST(SavedRuns, TheOutputIsLookedAtFirst) {
   const Folder folder("missing_folder");
   folder.write("p.toml", tiny_system);
   folder.write("no_run.h5", "");
-  const std::vector<std::vector<std::string>> commands = {
-      {"prepare", "p.toml"},
-      {"run", "p.toml"},
-      {"run", "p.toml", "--from", "no_run.h5"},
-      {"analyze", "no_run.h5"},
-      {"export", "no_run.h5", "--to", "gsd"}};
+  const std::vector<std::vector<std::string>> commands = {{"prepare", "p.toml"},
+                                                          {"run", "p.toml"},
+                                                          {"run", "p.toml", "--from", "no_run.h5"},
+                                                          {"analyze", "no_run.h5"},
+                                                          {"export", "no_run.h5", "--to", "gsd"}};
   for (std::vector<std::string> command : commands) {
     command.insert(command.end(), {"-o", "absent/output"});
     expect_refusal(

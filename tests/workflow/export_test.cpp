@@ -110,8 +110,7 @@ TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
     EXPECT_THAT(outcome.errors, HasSubstr(part));
     EXPECT_EQ(outcome.output, "");
   };
-  expect({"run.h5", "--to", "pdf"}, 2,
-         "'pdf' is none of gsd, xyz, csv, thesis, geo, vti, vtp");
+  expect({"run.h5", "--to", "pdf"}, 2, "'pdf' is none of gsd, xyz, csv, thesis, geo, vti, vtp");
   expect({"run.h5", "--to", "xyz", "-o", "there.xyz"}, 2, "exists already");
   expect({"run.h5", "--to", "xyz", "--frames", "4"}, 2, "has 4 frame(s)");
   expect({"there.xyz", "--to", "gsd"}, 3, "is not recognised as H5MD, GSD, extended XYZ,");

@@ -359,14 +359,17 @@ Json analysis_summary(const AnalysedRun& run) {
 
 std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& provenance) {
   if (provenance.version.empty()) return {};  // of another program
-  return {{"version", provenance.version},
-          {"commit", provenance.commit},
-          {"command_line", provenance.command_line},
-          {"host", provenance.host},
-          {"seed", std::to_string(provenance.seed)},
-          {"parent", provenance.parent},
-          {"started", provenance.started},
-          {"wall_seconds", fmt::format("{:.1f}", provenance.wall_seconds)}};
+  std::vector<std::pair<std::string, std::string>> rows = {
+      {"version", provenance.version},
+      {"commit", provenance.commit},
+      {"command_line", provenance.command_line},
+      {"host", provenance.host},
+      {"seed", std::to_string(provenance.seed)},
+      {"parent", provenance.parent},
+      {"started", provenance.started},
+      {"wall_seconds", fmt::format("{:.1f}", provenance.wall_seconds)}};
+  if (!provenance.model.empty()) rows.emplace_back("model", provenance.model);
+  return rows;
 }
 
 }  // namespace vitrel

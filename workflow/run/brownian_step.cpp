@@ -2,16 +2,30 @@
 
 #include <fmt/format.h>
 
+#include "core/state/typical_scales.h"
+
 namespace vitrel {
 
-std::string long_step_text(double brownian_step, double rate) {
-  const double gaps = step_in_gaps(brownian_step, rate);
-  if (gaps <= longest_step_in_gaps) return "";
-  return fmt::format(
-      "dynamics.brownian_step = {:g} is {:.2g} times as long as a particle flies between two "
-      "collisions, so that motion is slower than Brownian by ten per cent or more; {:.1g} is right "
-      "within a few per cent",
-      brownian_step, gaps, 0.7 / rate);
+template <int Dim>
+double step_in_sizes(double brownian_step, const Configuration<Dim>& particles) {
+  return brownian_step / typical_time(particles);
 }
+
+template <int Dim>
+std::string long_step_text(double brownian_step, const Configuration<Dim>& particles) {
+  constexpr double right = 0.1, too_long = 0.2;
+  const double sizes = step_in_sizes(brownian_step, particles);
+  if (sizes <= too_long) return "";
+  return fmt::format(
+      "in dynamics.brownian_step = {:g} a typical particle flies {:.2g} of its size: relaxation "
+      "takes longer than that of Brownian particles, by 12 to 18 % at 0.3 and twice as long at 1; "
+      "{:.1g} is right within 3 %",
+      brownian_step, sizes, right * typical_time(particles));
+}
+
+template double step_in_sizes(double, const Configuration2&);
+template double step_in_sizes(double, const Configuration3&);
+template std::string long_step_text(double, const Configuration2&);
+template std::string long_step_text(double, const Configuration3&);
 
 }  // namespace vitrel

@@ -16,6 +16,7 @@
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/known_relaxation.h"
 #include "workflow/run/run_checkpoint.h"
+#include "workflow/run/run_cost.h"
 #include "workflow/run/run_start.h"
 #include "workflow/storage/checkpoint_file.h"
 #include "workflow/storage/trajectory_file.h"
@@ -43,14 +44,6 @@ class Observers final : public Observer<Dim> {
   Observer<Dim>& first_;
   Observer<Dim>* second_;
 };
-
-/// The collisions that a particle has had per unit of time.
-template <int Dim>
-double collision_rate(const RunState<Dim>& state) {
-  const double time = state.configuration.time - state.start_time;
-  return 2 * static_cast<double>(state.counters.collisions) /
-         (static_cast<double>(state.configuration.size()) * time);
-}
 
 /// One request at work.
 template <int Dim>
@@ -134,14 +127,15 @@ class RunJob {
     checkpoint_.save(to_checkpoint(stored_));
   }
 
-  TrajectoryWriter open_trajectory() const {
+  TrajectoryWriter open_trajectory(const std::string& model) const {
     const RunState<Dim>& state = stored_.state;
     if (state.next_sample > 0)
       return TrajectoryWriter::append_to(request_.output, state.next_sample);
     const StateStage* start = start_state(request_.parameters.stages);
     const std::string parent = start ? start->file.value_or("") : "";
-    const Provenance provenance = current_provenance(request_.command_line, stored_.parameters,
-                                                     request_.parameters.system.seed, parent);
+    Provenance provenance = current_provenance(request_.command_line, stored_.parameters,
+                                               request_.parameters.system.seed, parent);
+    provenance.model = model;
     return TrajectoryWriter::create(request_.output, state.configuration, provenance,
                                     {.velocities = request_.parameters.output.velocities,
                                      .close_pairs = is_soft(),
@@ -156,9 +150,9 @@ class RunJob {
     RunState<Dim>& state = stored_.state;
     if (continues) log_line(log_, "continuing at " + time_text(state));
     const DynamicsOptions options = dynamics();
-    log_line(log_, (is_soft() ? "run of soft " : "run of ") +
-                       make_engine(state.configuration, options.engine)->description());
-    TrajectoryWriter writer = open_trajectory();
+    const std::string model = model_text(request_.parameters, state.configuration);
+    log_line(log_, "run of " + model);
+    TrajectoryWriter writer = open_trajectory(model);
     const std::vector<std::string> observables = writer.observable_names();
     TrajectoryObserver<Dim> file(
         writer, [&](const Frame<Dim>& frame) { return measure_run(frame, observables); });
@@ -261,7 +255,7 @@ class RunJob {
   void warn_of_long_steps() const {
     const DynamicsParameters& p = request_.parameters.dynamics;
     if (p.kind != DynamicsParameters::Kind::brownian) return;
-    const std::string text = long_step_text(p.brownian_step, collision_rate(stored_.state));
+    const std::string text = long_step_text(p.brownian_step, stored_.state.configuration);
     if (!text.empty()) log_line(log_, "warning: " + text);
   }
 
@@ -316,6 +310,7 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
       {"complete", outcome.complete},
       {"particles", state.configuration.size()},
       {"packing_fraction", packing_fraction(state.configuration)},
+      {"model", trajectory.provenance().model},
       {"simulated_time", simulated},
       {"frames", trajectory.frames()},
       {"collisions", counters.collisions},
@@ -332,7 +327,7 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
       {"collisions_per_second", collisions / (outcome.wall_seconds - state.output_seconds)},
       {"collisions_per_second_with_output", collisions / outcome.wall_seconds}};
   if (dynamics.kind == DynamicsParameters::Kind::brownian)
-    summary["brownian_step_in_gaps"] = step_in_gaps(dynamics.brownian_step, collision_rate(state));
+    summary["brownian_step_in_sizes"] = step_in_sizes(dynamics.brownian_step, state.configuration);
   if (is_dissipative(dynamics) || dynamics.contact)
     summary["dissipated_energy"] = counters.dissipated;
   if (dynamics.driving) summary["supplied_energy"] = counters.supplied;

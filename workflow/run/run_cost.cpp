@@ -1,5 +1,6 @@
 #include "workflow/run/run_cost.h"
 
+#include "edmd/engine.h"
 #include "edmd/hard_fluid.h"
 
 namespace vitrel {
@@ -39,14 +40,19 @@ double velocity_changes(const DynamicsParameters& p) {
 }  // namespace
 
 template <int Dim>
+std::string model_text(const Parameters& p, const Configuration<Dim>& some) {
+  const std::string model = make_engine(some, dynamics_options(p).engine)->description();
+  return p.dynamics.contact ? "soft " + model : model;
+}
+
+template <int Dim>
 RunCost run_cost(const Parameters& p, const Configuration<Dim>& some) {
   const auto particles = static_cast<double>(p.system.particles);
   const double time = p.dynamics.equilibration + p.dynamics.duration;
   const HardFluid fluid(some);
   const bool is_round = fluid.is_round();
   RunCost cost;
-  cost.collision_rate = 2 * fluid.collision_rate(p.system.packing_fraction);
-  cost.collisions = 0.5 * particles * time * cost.collision_rate;
+  cost.collisions = particles * time * fluid.collision_rate(p.system.packing_fraction);
   cost.events = HardFluid::events_per_collision * cost.collisions;
   // Each change of the velocities predicts all particles, at about the cost of an event.
   cost.seconds =
@@ -56,6 +62,8 @@ RunCost run_cost(const Parameters& p, const Configuration<Dim>& some) {
   return cost;
 }
 
+template std::string model_text(const Parameters&, const Configuration2&);
+template std::string model_text(const Parameters&, const Configuration3&);
 template RunCost run_cost(const Parameters&, const Configuration2&);
 template RunCost run_cost(const Parameters&, const Configuration3&);
 

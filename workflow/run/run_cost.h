@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/state/configuration.h"
 #include "workflow/configuration/parameters.h"
 
@@ -10,12 +12,16 @@ namespace vitrel {
 
 struct RunCost {
   double collisions = 0;
-  double collision_rate = 0;  ///< the collisions in which a particle takes part, per unit of time
   double events = 0;
   double seconds = 0;       ///< on one core of a processor of our days
   double memory_bytes = 0;  ///< of the process, without correlations on the fly
   double disk_bytes = 0;    ///< of the trajectory
 };
+
+/// What the particles are simulated as, and why: "rotating ellipses, since some particle is not round". `some`: the
+/// particles of the run, or some that represent them.
+template <int Dim>
+std::string model_text(const Parameters& parameters, const Configuration<Dim>& some);
 
 /// `some`: the particles of the run, or some that represent them.
 template <int Dim>

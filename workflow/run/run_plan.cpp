@@ -64,16 +64,18 @@ double free_disk(const fs::path& output) {
 }
 
 /// A warning of Brownian steps that are too long.
-std::string step_text(const DynamicsParameters& p, double collision_rate) {
+template <int Dim>
+std::string step_text(const DynamicsParameters& p, const Configuration<Dim>& some) {
   if (p.kind != DynamicsParameters::Kind::brownian) return "";
-  const std::string text = long_step_text(p.brownian_step, collision_rate);
+  const std::string text = long_step_text(p.brownian_step, some);
   return text.empty() ? text : fmt::format("warning      {}\n", text);
 }
 
 template <int Dim>
 std::string cost_text(const RunRequest& request) {
   const Parameters& p = request.parameters;
-  const RunCost cost = run_cost(p, representative_particles<Dim>(p));
+  const Configuration<Dim> some = representative_particles<Dim>(p);
+  const RunCost cost = run_cost(p, some);
   const double correlations = p.output.correlations ? correlator_bytes(p) : 0;
   const double memory = cost.memory_bytes + correlations;
   const bool slows = (is_dissipative(p.dynamics) || p.dynamics.contact) && !p.dynamics.driving;
@@ -83,8 +85,7 @@ std::string cost_text(const RunRequest& request) {
              "memory, {:.3g} MB on disk\n",
              is_bound ? "at most " : "", cost.events, cost.seconds, memory / 1e6,
              cost.disk_bytes / 1e6) +
-         step_text(p.dynamics, cost.collision_rate) +
-         room_text(memory, physical_memory(), "memory") +
+         step_text(p.dynamics, some) + room_text(memory, physical_memory(), "memory") +
          room_text(cost.disk_bytes, free_disk(request.output), "disk");
 }
 
@@ -99,6 +100,7 @@ std::string plan_text(RunRequest request) {
   text += p.dynamics.kind == DynamicsParameters::Kind::brownian
               ? fmt::format("dynamics     brownian, step {}\n", p.dynamics.brownian_step)
               : std::string("dynamics     newtonian\n");
+  text += fmt::format("model        {}\n", model_text(p, representative_particles<Dim>(p)));
   text += p.dynamics.contact ? contact_text(*p.dynamics.contact) : hard_contact_text(p.dynamics);
   const auto& times = p.dynamics.relaxation_times;
   text += fmt::format("time         {} to equilibrate, then {}{}\n", p.dynamics.equilibration,

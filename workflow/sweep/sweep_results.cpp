@@ -194,9 +194,9 @@ AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
 
 /// What may differ between runs to which one law is fitted.
 bool is_free(const std::string& key) {
-  return key == "system.packing_fraction" || key == "system.seed" || key.starts_with("dynamics.duration") ||
-         key == "dynamics.equilibration" || key.starts_with("prepare.") ||
-         key.starts_with("output.");
+  return key == "system.packing_fraction" || key == "system.seed" ||
+         key.starts_with("dynamics.duration") || key == "dynamics.equilibration" ||
+         key.starts_with("prepare.") || key.starts_with("output.");
 }
 
 /// Names of columns, for those who draw the tables.
