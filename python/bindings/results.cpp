@@ -111,7 +111,12 @@ void bind_results(py::module_& module) {
   module.def("write_page", &write_page, py::arg("input"), py::arg("output"), py::arg("overrides"));
   module.def("average", &average, py::arg("time"), py::arg("value"));
   module.def(
-      "charts", [](int dimension) { return charts_data(observables(dimension)).dump(); },
+      "charts",
+      [](int dimension) {
+        std::vector<Observable> all = observables(dimension);
+        all.push_back(jobs_observable());
+        return charts_data(all).dump();
+      },
       py::arg("dimension"));
 }
 

@@ -35,7 +35,7 @@ const std::vector<std::pair<Words, Words>> writers = {
     {{"report", "run.h5", "-o", "run.html"}, {"run.html"}},
     {{"export", "run.h5", "--to", "csv"}, {"run.csv"}},
     {{"export", "run.h5", "--to", "gsd"}, {"run.gsd"}},
-    {{"run", "p.toml", "-o", "space.h5", "--set", "system.dimension=3"}, {"space.h5"}},
+    {{"run", "p.toml", "--set", "system.dimension=3", "-o", "space.h5"}, {"space.h5"}},
     {{"export", "space.h5", "--to", "vtp", "-o", "folder"}, {"folder"}},
     {{"sweep", "p.toml", "-o", "sweep"},
      {"sweep/job/run.json", "sweep/job/done.json", "sweep/job/state.h5"}}};

@@ -145,8 +145,6 @@ Json table_data(const Table& table) {
 
 Json charts_data(const std::vector<Observable>& observables) {
   Json data = Json::array();
-  for (const Observable jobs = jobs_observable(); const Chart& chart : jobs.charts)
-    data.push_back(chart_data(jobs, chart));
   for (const Observable& observable : observables)
     for (const Chart& chart : observable.charts) data.push_back(chart_data(observable, chart));
   return data;

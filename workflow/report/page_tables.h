@@ -27,7 +27,7 @@ Json tables_data(const Results& results, const std::vector<Observable>& observab
 /// One table with all its rows, codes as what they stand for.
 Json table_data(const Table& table);
 
-/// For the script: the charts of jobs and of all these tables, with all that a Chart says.
+/// For the script: the charts of all these tables, with all that a Chart says.
 Json charts_data(const std::vector<Observable>& observables);
 
 /// What a code stands for; empty if it is unknown.

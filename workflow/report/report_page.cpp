@@ -138,6 +138,8 @@ int dimension_of(const ReportData& data) {
 std::string page_with(const ReportData& data, const Thinning& thinning) {
   const int dimension = dimension_of(data);
   const std::vector<Observable> tables = observables(dimension);
+  std::vector<Observable> drawn = tables;
+  if (data.runs.size() > 1) drawn.push_back(jobs_observable());
   Json runs = Json::array();
   for (const ReportRun& run : data.runs) {
     Json& entry = runs.emplace_back(run_data(run, tables, thinning));
@@ -145,26 +147,26 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
       entry["cooling"] = cooling_data(haff_law(*run.cooling, run.results, dimension));
   }
   const auto [heading, rows] = table_of_runs(data, page_units(dimension, data.units));
-  return whole_page({data.title,
-                     data.subtitle,
-                     "page/runs_sections.html",
-                     "page/report.js",
-                     {{"cooling", cooling_section(data.runs, dimension)},
-                      {"result", result_section(data, dimension)},
-                      {"table_heading", heading},
-                      {"table_rows", rows},
-                      {"abscissa", escaped(axes_of(data).back().name)},
-                      {"job_provenance", job_provenance(data.runs)},
-                      {"relaxation_rows", relaxation_rows(data.study, labels_of(data))},
-                      {"fit_rows", fit_rows(data.study)},
-                      {"study_notes", study_notes(data.study)}},
-                     script_safe(Json{{"runs", std::move(runs)},
-                                      {"charts", charts_data(tables)},
-                                      {"study", study_data(data)}}),
-                     data.parameters,
-                     shared_provenance(data),
-                     dimension,
-                     data.units});
+  return whole_page(
+      {data.title,
+       data.subtitle,
+       "page/runs_sections.html",
+       "page/report.js",
+       {{"cooling", cooling_section(data.runs, dimension)},
+        {"result", result_section(data, dimension)},
+        {"table_heading", heading},
+        {"table_rows", rows},
+        {"abscissa", escaped(axes_of(data).back().name)},
+        {"job_provenance", job_provenance(data.runs)},
+        {"relaxation_rows", relaxation_rows(data.study, labels_of(data))},
+        {"fit_rows", fit_rows(data.study)},
+        {"study_notes", study_notes(data.study)}},
+       script_safe(Json{
+           {"runs", std::move(runs)}, {"charts", charts_data(drawn)}, {"study", study_data(data)}}),
+       data.parameters,
+       shared_provenance(data),
+       dimension,
+       data.units});
 }
 
 }  // namespace
