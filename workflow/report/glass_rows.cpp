@@ -145,6 +145,32 @@ std::string director_row(const Row& row, const Notation& notation) {
                                notation.correlation, row.text("plateau"))});
 }
 
+/// Averages over the run, where they are known.
+std::string average_rows(const Results& run, const PageUnits& units) {
+  struct Average {
+    const char *head, *column;
+    const char* square;  ///< what grows with the slope, if it is one
+  };
+  constexpr Average averages[] = {
+      {"compressibility factor Z = βP/ρ", "compressibility_factor", nullptr},
+      {"diffusion coefficient D", "diffusion", "mean squared displacement"},
+      {"rotational diffusion coefficient D<sub>r</sub>", "rotational_diffusion",
+       "mean squared rotation"}};
+  std::string rows;
+  for (const auto& [head, name, square] : averages) {
+    const Row row{run, "summary", 0};
+    if (!std::isfinite(row.value(name))) continue;
+    const std::string unit = unit_name(run.find("summary")->find(name)->unit, units);
+    const std::string column = name;
+    rows += html_row(head, {row.text(name) + (unit.empty() ? "" : " " + escaped(unit)),
+                            square ? fmt::format("slope of the {} from t = {} to {}", square,
+                                                 row.text((column + "_from").c_str()),
+                                                 row.text((column + "_to").c_str()))
+                                   : ""});
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::string result_rows(const Results& run, int dimension, const std::optional<FileUnits>& units) {
@@ -156,6 +182,7 @@ std::string result_rows(const Results& run, int dimension, const std::optional<F
   return (not_judged.empty()
               ? rows_of(run, "relaxation", verdict_rows)
               : html_row("equilibrium", {"not judged: " + escaped(not_judged), ""})) +
+         average_rows(run, page_units(dimension, units)) +
          rows_of(run, "relaxation_times", with_notation(time_row)) +
          rows_of(run, "relaxation", with_notation(director_row));
 }
