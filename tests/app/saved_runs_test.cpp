@@ -138,7 +138,10 @@ TEST(SavedRuns, TheSummaryGivesErrorsBesideTheirValues) {
 TEST(SavedRuns, AnEndingSlashNamesAFolderToo) {
   const Folder folder("slash");
   folder.write("p.toml", tiny_system);
-  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q", "--set", "system.dimension=3"}).code, 0);
+  ASSERT_EQ(
+      run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q", "--set", "system.dimension=3"})
+          .code,
+      0);
   const Outcome outcome =
       run(folder.path(), {"export", "run.h5", "--to", "vtp", "-o", "bodies/", "-q"});
   EXPECT_EQ(outcome.code, 0) << outcome.errors;
