@@ -19,7 +19,7 @@ std::string long_step_text(double brownian_step, const Configuration<Dim>& parti
   return fmt::format(
       "in dynamics.brownian_step = {:g} a typical particle flies {:.2g} of its size: relaxation "
       "takes longer than that of Brownian particles, by 12 to 18 % at 0.3 and twice as long at 1; "
-      "{:.1g} is right within 3 %",
+      "{:.1g} is right within 4 %",
       brownian_step, sizes, right * typical_time(particles));
 }
 
