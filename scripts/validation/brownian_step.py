@@ -43,7 +43,7 @@ def drawn(densities):
         for place, x in zip(axes, ([point.seconds for point in others], [point.step for point in others])):
             place.errorbar(x, values, yerr=errors, marker="o", markersize=4, linewidth=1, label=f"φ = {fraction:g}")
     for place, label in zip(axes, ("s per D₀ t = 1", "τ_B")):
-        place.set(xscale="log", yscale="symlog", xlabel=label)
+        place.set(xscale="log", yscale="symlog", ylim=(-2, 300), xlabel=label)
         place.grid(alpha=0.25)
     axes[0].set_ylabel("deviation of τα / %")
     axes[1].legend(frameon=False, fontsize="small")
