@@ -464,9 +464,12 @@ class Page(PageTest):
         self.assertEqual(self.section_headings()[:2], ["Result", "Particles"])
         rows = self.browser.evaluate("""[...document.querySelectorAll('section:first-of-type tr')].map((row) =>
           [...row.children].map((cell) => cell.textContent))""")
-        # Of all particles, not of the species.
+        # Relaxation times are of all particles, not of the species.
         self.assertEqual(rows, [["equilibrium", "not enough time: it lasts 4 times tau_2; 16 are needed", ""],
                                 ["of translation alone", "equilibrated", ""],
+                                ["compressibility factor Z = βP/ρ", "4.492 ± 0.031", ""],
+                                ["diffusion coefficient D", "0.00200 ± 0.00020",
+                                 "slope of the mean squared displacement from t = 10 to 100"],
                                 ["relaxation time τα", "10.00 ± 0.50 √(m ab/kT)", "Fs(q, t) = 1/e at q = 2.4/√(ab)"],
                                 ["rotational relaxation time τ2", "not within this run: > 250 √(m ab/kT)", "L2(t) = 1/e"]])
         self.assertTrue(self.browser.evaluate("document.querySelector('#course .plot').checkVisibility()"))

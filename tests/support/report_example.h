@@ -97,6 +97,7 @@ inline Table summary(double phi) {
            plain("collisions", "1", {123'456}), plain("duration", "time", {250}),
            single("compressibility_factor", 4.4921, 0.0312), single("translational_energy", 1, 0),
            single("rotational_energy", 0.5, 0.001), single("diffusion", 0.02 * (0.8 - phi), 0.0002),
+           plain("diffusion_from", "time", {10}), plain("diffusion_to", "time", {100}),
            single("rotational_diffusion", unknown, unknown),
            plain("collisions_per_second_with_output", "1/s", {300'000})}};
 }
