@@ -228,8 +228,9 @@ class CommandLine : public ProgramCommandLine {
     CLI::Option* status =
         sub.add_flag("--status", sweep_.status,
                      "Only print how far every job is, and what has changed in the file since");
-    sub.add_flag("--dry-run", sweep_.dry_run, "Print the jobs and what they are expected to cost")
-        ->excludes(status);
+    CLI::Option* dry_run = sub.add_flag("--dry-run", sweep_.dry_run,
+                                        "Print the jobs and what they are expected to cost");
+    dry_run->excludes(status);
     CLI::Option* job = sub.add_option(
         "--job", sweep_.job, "Run this job only; other processes may run other jobs meanwhile");
     std::vector<std::string> programs;
@@ -242,7 +243,7 @@ class CommandLine : public ProgramCommandLine {
     CLI::Option* exported =
         add_choice(sub, "--export", sweep_.export_as, programs, "PROGRAM", sentence);
     job->excludes(parallel)->excludes(status)->excludes(exported);
-    exported->excludes(status);
+    exported->excludes(status)->excludes(dry_run);
     add_wall_time(sub, sweep_.wall_time);
     add_print(sub, sweep_.print);
   }
