@@ -44,8 +44,8 @@ struct CompressibilitySeries {
 ///     Z = 1 + Δ(Σ J n·d)/(d N kT Δt).
 ///
 /// kT is the mean temperature of the run: exact for zero net momentum, where the virial rate depends on
-/// ⟨(v_1 − v_2)²⟩ only and the centre of mass takes none of the energy. `virial` belongs to the times of `energy`; fewer than two of them give NaN, as does a run
-/// without collisions.
+/// ⟨(v_1 − v_2)²⟩ only and the centre of mass takes none of the energy. `virial` belongs to the times of `energy`; fewer
+/// than two of them give NaN, as does a run without collisions.
 CompressibilitySeries compressibility(const EnergySeries& energy, const std::vector<double>& virial,
                                       std::size_t particles, std::size_t rotations,
                                       int dimension = 2);

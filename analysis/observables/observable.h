@@ -86,7 +86,8 @@ class TableChoice {
   std::vector<std::string> tables_;
 };
 
-/// The table of the jobs of a sweep. Its charts are over the packing fraction, unless the sweep runs along something else.
+/// The table of the jobs of a sweep. Its charts are over the packing fraction, unless the sweep runs along something
+/// else.
 Observable jobs_observable();
 
 /// All tables of the analysis of a run in so many dimensions, in the order in which the results have them.

@@ -160,8 +160,8 @@ struct BadValue : UserError {
 void read_parameters(const TomlNode& root, const FieldVisitor::Inside& describe,
                      const std::function<void()>& validate);
 
-/// The field with this dotted key, which counts the entries of lists ("species.0.mass"), whether or not it is given; nothing
-/// if there is none. An entry of an array is part of the array's field.
+/// The field with this dotted key, which counts the entries of lists ("species.0.mass"), whether or not it is given;
+/// nothing if there is none. An entry of an array is part of the array's field.
 std::optional<Field> find_field(const FieldVisitor::Inside& describe,
                                 const std::string& dotted_key);
 

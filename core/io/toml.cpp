@@ -145,7 +145,8 @@ TomlNode& descend(TomlNode& parent, const std::string& part, const std::string& 
   return table->back().node;
 }
 
-/// The first part of a dotted key; of an entry that is there all of its key, which may have dots itself ("system.seed" = 1).
+/// The first part of a dotted key, or the whole key of an entry that is there, which may have dots itself
+/// ("system.seed" = 1).
 std::string first_key(const TomlNode& parent, std::string_view path) {
   if (const auto [child, length] = enter(parent, path); child)
     return std::string(path.substr(0, length));

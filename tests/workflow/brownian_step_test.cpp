@@ -22,7 +22,7 @@ Configuration2 particles(double size) {
 
 TEST(BrownianStep, IsInSizesOfATypicalParticle) {
   EXPECT_NEAR(step_in_sizes(0.3, particles(1)), 0.3, 1e-12);
-  // Of the same density, so that the mass grows with the area: √(m a b/kT) = 4.
+  // The density is the same, so that the mass grows with the area: √(m a b/kT) = 4.
   EXPECT_NEAR(step_in_sizes(0.3, particles(2)), 0.075, 1e-12);
 }
 

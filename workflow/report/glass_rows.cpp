@@ -52,7 +52,7 @@ struct Row {
 
 std::string html_row(std::string_view head, std::initializer_list<std::string> cells) {
   std::string row = fmt::format("<tr><th scope=\"row\">{}</th>", head);
-  for (const std::string& cell : cells) row += "<td>" + cell + "</td>";
+  for (const std::string& cell : cells) row += table_cell(cell);
   return row + "</tr>\n";
 }
 

@@ -12,7 +12,7 @@
 /// below them.
 namespace vitrel {
 
-/// Of one run: the verdict with its reason, or why there is none; Z, D and D_r; the times in which F_s and L_n of
+/// The results of one run: the verdict with its reason, or why there is none; Z, D and D_r; the times in which F_s and L_n of
 /// all particles fall to 1/e, and in a nematic that of L_2 seen from the director. From the tables
 /// `relaxation` and `relaxation_times`; empty without them.
 std::string result_rows(const Results& run, int dimension,

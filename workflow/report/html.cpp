@@ -19,6 +19,10 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+std::string table_cell(const std::string& text) {
+  return "<td>" + text + "</td>";
+}
+
 std::string provenance_entries(const PageProvenance& provenance) {
   std::string list;
   for (const auto& [name, text] : provenance)

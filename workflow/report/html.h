@@ -15,6 +15,9 @@ using PageProvenance = std::vector<std::pair<std::string, std::string>>;
 /// Text that stands for itself in HTML and XML.
 std::string escaped(std::string_view text);
 
+/// A cell of a table; the text is HTML.
+std::string table_cell(const std::string& text);
+
 /// The entries of a description list; what has no text is left out.
 std::string provenance_entries(const PageProvenance& provenance);
 

@@ -72,10 +72,6 @@ std::pair<std::string, std::string> table_of_runs(const ReportData& data, const 
   return {runs_heading(table, units), runs_rows(table)};
 }
 
-std::string cell(const std::string& text) {
-  return "<td>" + text + "</td>";
-}
-
 std::string text_of(const PageProvenance& provenance, std::size_t k) {
   return k < provenance.size() ? provenance[k].second : "";
 }
@@ -109,7 +105,7 @@ std::string job_provenance(const std::vector<ReportRun>& runs) {
   if (columns.empty()) return "";
   for (const ReportRun& run : runs) {
     rows += "<tr><th scope=\"row\">" + escaped(run.name) + "</th>";
-    for (const std::size_t k : columns) rows += cell(escaped(text_of(run.provenance, k)));
+    for (const std::size_t k : columns) rows += table_cell(escaped(text_of(run.provenance, k)));
     rows += "</tr>\n";
   }
   return filled(asset("page/job_provenance.html"), {{"head", head}, {"rows", rows}});

@@ -154,7 +154,7 @@ void add_run(const AnalysedRun& run, const std::string& label, const KnownSystem
 
 /// The last part of a dotted key, with blanks.
 std::string words(const std::string& key) {
-  std::string last = key.substr(key.rfind('.') + 1);
+  std::string last = last_part(key);
   std::ranges::replace(last, '_', ' ');
   return last;
 }

@@ -66,13 +66,9 @@ const Column* shown_seed(const Table& table) {
   return seed && differs(*seed) ? seed : nullptr;
 }
 
-std::string cell(const std::string& text) {
-  return "<td>" + text + "</td>";
-}
-
 std::string key_text(const Column& column, std::size_t row) {
   const double value = column.value[row];
-  if (!column.labels.empty()) return escaped(column.labels[static_cast<std::size_t>(value)]);
+  if (!column.labels.empty()) return escaped(label_text(column, row));
   return column.name == "packing_fraction" ? density_text(value) : fmt::format("{:.6g}", value);
 }
 
@@ -94,7 +90,7 @@ std::string runs_heading(const RunsTable& table, const PageUnits& units) {
   std::string symbols, unit_row;
   const auto add = [&](const std::string& symbol, const std::string& unit) {
     symbols += "<th scope=\"col\">" + symbol + "</th>";
-    unit_row += cell(escaped(unit_name(unit, units)));
+    unit_row += table_cell(escaped(unit_name(unit, units)));
   };
   for (std::size_t k = 0; k < table.keys.size(); ++k)
     add(escaped(table.symbols[k]), table.values.find(table.keys[k])->unit);
@@ -111,14 +107,14 @@ std::string runs_rows(const RunsTable& table) {
     std::string cells;
     for (std::size_t k = 0; k < table.keys.size(); ++k) {
       const std::string text = key_text(*table.values.find(table.keys[k]), row);
-      cells += k == 0 ? "<th scope=\"row\">" + text + "</th>" : cell(text);
+      cells += k == 0 ? "<th scope=\"row\">" + text + "</th>" : table_cell(text);
     }
     if (const Column* seed = shown_seed(table.values))
-      cells += cell(fmt::format("{:.0f}", seed->value[row]));
+      cells += table_cell(fmt::format("{:.0f}", seed->value[row]));
     for (const Quantity& quantity : quantities)
       if (const Column* column = shown(table.values, quantity))
-        cells += cell(value_text(table.values, quantity, *column, row));
-    rows += "<tr>" + cells + cell(escaped(table.names[row])) + "</tr>\n";
+        cells += table_cell(value_text(table.values, quantity, *column, row));
+    rows += "<tr>" + cells + table_cell(escaped(table.names[row])) + "</tr>\n";
   }
   return rows;
 }

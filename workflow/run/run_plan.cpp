@@ -72,9 +72,8 @@ std::string step_text(const DynamicsParameters& p, const Configuration<Dim>& som
 }
 
 template <int Dim>
-std::string cost_text(const RunRequest& request) {
+std::string cost_text(const RunRequest& request, const Configuration<Dim>& some) {
   const Parameters& p = request.parameters;
-  const Configuration<Dim> some = representative_particles<Dim>(p);
   const RunCost cost = run_cost(p, some);
   const double correlations = p.output.correlations ? correlator_bytes(p) : 0;
   const double memory = cost.memory_bytes + correlations;
@@ -93,6 +92,7 @@ template <int Dim>
 std::string plan_text(RunRequest request) {
   const std::string start = start_text<Dim>(request);
   const Parameters& p = request.parameters;
+  const Configuration<Dim> some = representative_particles<Dim>(p);
   std::string text = fmt::format("starts from  {}{}", start, start.ends_with('\n') ? "" : "\n");
   text += system_plan(p);
   for (const Species& species : p.species)
@@ -100,7 +100,7 @@ std::string plan_text(RunRequest request) {
   text += p.dynamics.kind == DynamicsParameters::Kind::brownian
               ? fmt::format("dynamics     brownian, step {}\n", p.dynamics.brownian_step)
               : std::string("dynamics     newtonian\n");
-  text += fmt::format("model        {}\n", model_text(p, representative_particles<Dim>(p)));
+  text += fmt::format("model        {}\n", model_text(p, some));
   text += p.dynamics.contact ? contact_text(*p.dynamics.contact) : hard_contact_text(p.dynamics);
   const auto& times = p.dynamics.relaxation_times;
   text += fmt::format("time         {} to equilibrate, then {}{}\n", p.dynamics.equilibration,
@@ -112,7 +112,7 @@ std::string plan_text(RunRequest request) {
   if (p.output.correlations)
     text += fmt::format("correlates   every {}, into {}\n", p.output.correlations->interval,
                         correlations_path(request.output).string());
-  return text + cost_text<Dim>(request);
+  return text + cost_text(request, some);
 }
 
 }  // namespace

@@ -56,8 +56,7 @@ AveragedFigure averaged(const std::string& name, const std::vector<const Figures
 
 std::string SeedAverage::name() const {
   std::vector<std::string> parts;
-  for (const auto& [key, value] : values)
-    parts.push_back(key.substr(key.rfind('.') + 1) + " " + value);
+  for (const auto& [key, value] : values) parts.push_back(last_part(key) + " " + value);
   for (std::string& part : parts) std::erase(part, '"');
   return parts.empty() ? "all" : fmt::format("{}", fmt::join(parts, ", "));
 }

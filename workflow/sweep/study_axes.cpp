@@ -167,14 +167,17 @@ SweptValues swept_values(const Json& values) {
   return texts;
 }
 
+std::string last_part(const std::string& key) {
+  return key.substr(key.rfind('.') + 1);
+}
+
 std::size_t StudyAxis::distinct_values() const {
   return std::set<double>(value.begin(), value.end()).size();
 }
 
 std::string StudyAxis::text(std::size_t job) const {
   if (is_category()) return symbol + ": " + labels[static_cast<std::size_t>(value[job])];
-  return fmt::format("{} = {:.6g}{}{}", symbol, value[job], unit == "1" ? "" : " ",
-                     unit == "1" ? "" : unit);
+  return fmt::format("{} = {:.6g}{}", symbol, value[job], unit == "1" ? "" : " " + unit);
 }
 
 std::vector<StudyAxis> study_keys(const std::vector<SweptValues>& jobs) {

@@ -19,6 +19,9 @@ SweptValues swept_values(const Json& values);
 
 inline constexpr const char* seed_key = "system.seed";
 
+/// "packing_fraction" of "system.packing_fraction".
+std::string last_part(const std::string& key);
+
 /// A key that a sweep runs through.
 struct StudyAxis {
   std::string key;     ///< dotted
@@ -48,7 +51,8 @@ std::vector<StudyAxis> study_keys(const std::vector<SweptValues>& jobs);
 
 /// Those of these keys that differ. The last one is the abscissa of charts, the others tell curves apart. Of keys that
 /// advance together, there are only as many as tell these steps apart: the one that the layout wants, else one that is a
-/// number and another one in each step, else the first ones. The abscissa is that of the layout, or else the one with the most different numbers, the earlier of two.
+/// number and another one in each step, else the first ones. The abscissa is that of the layout, or else the one with the
+/// most different numbers, the earlier of two.
 std::vector<StudyAxis> study_axes(std::vector<StudyAxis> keys, const StudyLayout& layout);
 
 /// "κ = 2, φ = 0.5"; empty without axes.

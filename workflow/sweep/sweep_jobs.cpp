@@ -54,10 +54,6 @@ std::vector<std::vector<Assignments>> combinations_of(const std::vector<Axis>& a
   return combinations;
 }
 
-std::string last_part(const std::string& key) {
-  return key.substr(key.rfind('.') + 1);
-}
-
 /// Letters, digits and a few marks; anything between them becomes one "_", so that every shell takes the name.
 std::string file_name_part(const std::string& text) {
   std::string part;

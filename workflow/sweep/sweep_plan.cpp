@@ -38,8 +38,9 @@ double start_of(const SweepJob& job, const std::map<std::string, double>& densit
   return before == density_of.end() ? job.parameters.system.packing_fraction : before->second;
 }
 
-std::string seconds_cell(double seconds) {
-  return seconds > 0 ? fmt::format("{:.2g}", seconds) : missing_cell;
+/// Nothing of a job without a run.
+std::string number_of_run(double number) {
+  return number > 0 ? fmt::format("{:.2g}", number) : missing_cell;
 }
 
 }  // namespace
@@ -65,8 +66,8 @@ std::string sweep_plan(const std::vector<SweepJob>& jobs, const std::filesystem:
     rows.push_back({job.id, name_of(stage),
                     (cost.preparation.is_foreseen ? "" : "> ") +
                         fmt::format("{:.2g}", cost.preparation.seconds),
-                    seconds_cell(cost.run.seconds), seconds_cell(cost.run.events),
-                    seconds_cell(cost.run.disk_bytes / 1e6)});
+                    number_of_run(cost.run.seconds), number_of_run(cost.run.events),
+                    number_of_run(cost.run.disk_bytes / 1e6)});
   }
   const int at_a_time = std::max(parallel, 1);
   return text_table(rows, 2) + fmt::format(

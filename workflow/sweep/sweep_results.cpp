@@ -50,7 +50,7 @@ Column column_of(const StudyAxis& axis) {
   return {axis.column(), axis.unit, axis.value, {}, axis.labels};
 }
 
-/// Of the table of relaxation times, what the summary does not have.
+/// Columns of the table of relaxation times that the summary lacks.
 constexpr const char* of_relaxation[] = {"verdict",         "verdict_translation", "wave_number",
                                          "tau_translation", "tau_rotation",        "nematic_order",
                                          "orientation"};
@@ -320,11 +320,6 @@ Results results_of_sweep(const AnalysedSweep& sweep, const GlassStudy& study) {
   for (auto& note : glass_notes(study)) results.provenance.push_back(std::move(note));
   add_axes(sweep.axes, results);
   return results;
-}
-
-const Table& averaged_jobs(const Results& results) {
-  const Table* seeds = results.find("seeds");
-  return seeds ? *seeds : *results.find("runs");
 }
 
 }  // namespace vitrel

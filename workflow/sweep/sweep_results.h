@@ -39,7 +39,4 @@ GlassStudy glass_study(const AnalysedSweep& sweep);
 /// the names of columns of both tables: `axis`, the abscissa of charts, and `series`, which tell curves apart, with commas.
 Results results_of_sweep(const AnalysedSweep& sweep, const GlassStudy& study);
 
-/// The table that charts over the axes show: `seeds`, or `runs` of a sweep without seeds.
-const Table& averaged_jobs(const Results& results);
-
 }  // namespace vitrel

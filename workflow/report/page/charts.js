@@ -400,9 +400,14 @@ class Chart {
     return canvas.toDataURL('image/png');
   }
 
-  /** Of the curves that are shown: [{curve, x, y}] below the plot, in rows; nothing of a single one. */
+  /** The curves that a legend names: the first of each id. */
+  namedCurves() {
+    return this.variant.curves.filter((curve, k, all) => all.findIndex(({ id }) => id === curve.id) === k);
+  }
+
+  /** Where a saved chart names the curves that are shown, in rows below the plot: [{curve, x, y}]. A single one needs no name. */
   legendPlaces() {
-    const shown = this.variant.curves.filter((curve, k, all) => !this.hidden.has(curve.id) && all.findIndex(({ id }) => id === curve.id) === k);
+    const shown = this.namedCurves().filter(({ id }) => !this.hidden.has(id));
     const context = document.createElement('canvas').getContext('2d'), { width } = this.size();
     context.font = font;
     let x = 0, row = 0;
@@ -466,8 +471,7 @@ class Chart {
 
   /** A single curve needs none, nor do curves that a legend outside the chart names. */
   fillLegend() {
-    const all = this.variant.curves;
-    const curves = all.filter((curve, k) => all.findIndex(({ id }) => id === curve.id) === k);
+    const curves = this.namedCurves();
     this.legend.hidden = this.legendOutside || curves.length < 2;
     this.legend.replaceChildren(...curves.map((curve) => legendButton(curve, !this.hidden.has(curve.id),
       (shown) => this.show(curve.id, shown))));
@@ -529,12 +533,12 @@ class Chart {
 // Paper is light, and has no canvas that would blur.
 
 addEventListener('beforeprint', () => {
-  const wasDark = isDark();
+  const wasDark = isDark(), scheme = root.style.colorScheme;
   if (wasDark) { root.style.colorScheme = 'light'; recolour(); }
   allCharts.filter(({ plot }) => plot).forEach((chart) => chart.print());
   addEventListener('afterprint', () => {
     allCharts.forEach(({ printed }) => printed?.remove());
-    if (wasDark) { root.style.colorScheme = 'dark'; recolour(); }
+    if (wasDark) { root.style.colorScheme = scheme; recolour(); }
   }, { once: true });
 });
 
