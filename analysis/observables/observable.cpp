@@ -87,6 +87,7 @@ Observable jobs_observable() {
               of_study("Rotational diffusion", "Dᵣ", "rotational_diffusion", over_decades),
               of_study("Shear viscosity", "η", "viscosity", over_decades),
               of_study("Compressibility factor", "Z = βP/ρ", "compressibility_factor"),
+              of_study("Packing fraction", "φ", "packing_fraction"),
               of_study("Pressure of the prepared state", "βP/ρ", "reduced_pressure", over_decades),
               of_study("Nematic order", "S", "nematic_order", from_zero),
               of_study("Hexatic order", "ψ₆", "hexatic_order", from_zero),
@@ -96,9 +97,17 @@ Observable jobs_observable() {
                        over_decades),
               of_study("Blocked rotations", "share of collisions",
                        "blocked_rotations_per_collision", over_decades),
+              of_study("Collisions", "collisions", "collisions", over_decades),
               of_study("Computing time", "computing time", "wall_seconds", over_decades),
               of_study("Speed of the simulation", "collisions per second",
                        "collisions_per_second_with_output")}};
+}
+
+std::vector<std::string> jobs_quantities() {
+  std::vector<std::string> columns;
+  for (const Chart& chart : jobs_observable().charts)
+    columns.push_back(chart.curves.front().column);
+  return columns;
 }
 
 std::vector<Observable> observables(int dimension) {

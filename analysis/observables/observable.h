@@ -89,6 +89,8 @@ class TableChoice {
 /// The table of the jobs of a sweep. Its charts are over the packing fraction, unless the sweep runs along something
 /// else.
 Observable jobs_observable();
+/// The columns of its charts.
+std::vector<std::string> jobs_quantities();
 
 /// All tables of the analysis of a run in so many dimensions, in the order in which the results have them.
 std::vector<Observable> observables(int dimension);

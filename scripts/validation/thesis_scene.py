@@ -7,7 +7,7 @@ DURATION = 1000  # ten times that of the thesis
 
 SCENES = {
     "thesis, Newtonian": ("thesis.toml", True),
-    "thesis, Brownian": ("thesis_brownian.toml", False),
+    "thesis, Brownian": ("ellipses_brownian.toml", False),
     "binary mixture, Newtonian": ("binary.toml", True),
 }
 
@@ -29,7 +29,7 @@ def measure(build):
     head = ["scene", "collisions", "predictions per collision", "correction moves", "relative energy drift",
             "largest momentum", "frames", "overlaps", "smallest gap"]
     rows = [row(build, name, *scene) for name, scene in SCENES.items()]
-    return f"""`params/thesis.toml`, `params/thesis_brownian.toml` and `params/binary.toml` run for {DURATION} units of time. Required: no
+    return f"""`params/ellipses.toml`, `params/ellipses_brownian.toml` and `params/binary.toml` run for {DURATION} units of time. Required: no
 correction moves; no overlap in any saved frame by the exact check (tolerance zero); in Newtonian runs, a relative energy
 drift of at most 10⁻¹² and a momentum of at most 10⁻¹¹.
 

@@ -43,6 +43,14 @@ STUDIES = {
     "ghossein_figure_8": ([SEED, "system.particles=50"], "Against the packing fraction", ["Computing time"]),
     "ghossein_figure_9": ([SEED, "system.particles=20"], "Against the aspect ratios", ["Computing time"]),
     "ghossein_table_2": ([SEED], "Against the aspect ratios", ["Orientation ratio", "Computing time"]),
+    "woetzel_figure_4_1": ([SEED, "sweep.grid.system.particles=[100, 400]", "dynamics.duration=2"], "Against the particles",
+                           ["Collisions", "Computing time"]),
+    "woetzel_figure_4_3": ([SEED, 'sweep.grid.species.0.aspect_ratio=[1, 3]', "dynamics.duration=5", "dynamics.equilibration=1"],
+                           "Against the aspect ratio", ["Collisions"]),
+    "woetzel_figure_4_5": ([], "Against the aspect ratio", ["Packing fraction", "Nematic order"]),
+    "woetzel_figure_4_7": (["system.particles=50"], "Against the packing fraction", ["Compressibility factor"]),
+    "woetzel_figure_4_9": (["system.particles=30", "dynamics.duration=20", "dynamics.equilibration=1",
+                            "sweep.grid.system.packing_fraction=[0.3, 0.5]"], "Against the packing fraction", ["Compressibility factor"]),
     "mueller_figure_7_density": ([SEED, LENGTH, "system.particles=100"], "Against the packing fraction",
                                  ["Early releases", "Blocked rotations"]),
     "mueller_figure_7_modulus": ([SEED, "dynamics.duration=20", "system.particles=100"], "Against the youngs modulus",
@@ -121,6 +129,54 @@ class Studies(PageTest):
         points = self.read_points("Compressibility factor")
         self.assertEqual(len(points), 6, points)
         self.assertTrue(any(point.startswith("φ = 0.1:  kind = brownian,  ") for point in points), points)
+
+    def test_published_results_stand_beside_those_of_the_sweep(self):
+        file = FOLDER / "published.toml"
+        grid = '[sweep.grid]\n"system.particles" = [10, 20, 40]\n"system.seed" = [1, 2]\n'
+        published = '[[sweep.published]]\nsource = "A (2000)"\nquantity = "collisions"\nvalues = [500, 1000, 3000]\n' \
+                    '[[sweep.published]]\nsource = "B (2001)"\nquantity = "collisions"\nexponent = 1\nto = 20\n'
+        file.write_text(GRID.split("[sweep.grid]")[0].replace("particles = 30", "packing_fraction = 0.3") + grid + published, encoding="utf-8")
+        folder = study("published", file)
+        with open(folder / "results/published.csv", encoding="utf-8") as table:
+            rows = list(csv.DictReader(table))
+        self.assertEqual([(float(row["system_particles"]), row["source"], float(row["published"])) for row in rows],
+                         [(10, "A (2000)", 500), (20, "A (2000)", 1000), (40, "A (2000)", 3000)])
+        with open(folder / "results/published_exponents.csv", encoding="utf-8") as table:
+            power = float(next(csv.DictReader(table))["measured"])
+        self.open("published.html")
+        cells = self.browser.evaluate("[...document.querySelectorAll('#published-rows tr')].map((row) => [...row.children].map((cell) => cell.textContent))")
+        self.assertEqual([row[:3] for row in cells], [["N = 10", "Collisions", "500"], ["N = 20", "Collisions", "1000"], ["N = 40", "Collisions", "3000"],
+                                                      ["N = 10 … 20", "Collisions: power of N", "1"]])
+        self.assertAlmostEqual(float(cells[3][3]), power, delta=0.001 * power)
+        points = self.read_points("Collisions")
+        self.assertTrue(any(point.startswith("A (2000):  N = 20,  1000") for point in points), points)
+        self.assertTrue(any(point.startswith("∝ N^1: B (2001):  N = 10,  ") for point in points), points)
+        # An axis that was logarithmic becomes linear and back.
+        chart = self.chart("Collisions")
+        switch = f"[...{chart}.querySelectorAll('.tools button')].find((button) => button.textContent === 'log y')"
+        states = []
+        for _ in range(3):
+            states.append(self.browser.evaluate(f"{switch}.getAttribute('aria-pressed')"))
+            self.browser.evaluate(f"{switch}.click()")
+        self.assertEqual(states, ["true", "false", "true"])
+        self.assertEqual(self.browser.complaints, [])
+
+    def test_curves_are_also_shown_over_the_first(self):
+        file = FOLDER / "ratios.toml"
+        file.write_text(GRID.replace("[10, 1.5, 3]", "[1.5, 3]").replace("[1, 2, 3]", "[1, 2]"), encoding="utf-8")
+        folder = study("ratios", file)
+        with open(folder / "results/seeds.csv", encoding="utf-8") as table:
+            of = {(float(row["system_packing_fraction"]), float(row["species_0_aspect_ratio"])): float(row["collisions"]) for row in csv.DictReader(table)}
+        self.open("ratios.html")
+        chart = self.chart("Collisions")
+        self.browser.evaluate(f"""(() => {{ const select = {chart}.querySelector('select');
+          select.selectedIndex = 1; select.dispatchEvent(new Event('change')); }})()""")
+        points = self.read_points("Collisions")
+        read = {point.split("φ = ")[1].split(",")[0]: float(point.split(",  ")[1].split(" ± ")[0]) for point in points}
+        self.assertEqual(sorted(read), ["0.2", "0.3"], points)
+        for phi, value in read.items():
+            wanted = of[float(phi), 3.0] / of[float(phi), 1.5]
+            self.assertAlmostEqual(value, wanted, delta=0.05 * wanted)
 
     def test_published_studies_have_their_charts(self):
         self.assertEqual(sorted(STUDIES), sorted(file.stem for file in ARTICLES.glob("*.toml")))

@@ -364,6 +364,16 @@ const BadFile bad_files[] = {
      "file.toml:2:17: key 'sweep.together.system.seed' must hold arrays of values to run through, "
      "not an "
      "empty array"},
+    {"[sweep.grid]\n\"system.seed\" = [1, 2]\n[[sweep.published]]\nsource = \"A\"\n"
+     "quantity = \"wall_seconds\"\nvalues = [1, 2, 3]",
+     "file.toml:6:10: key 'sweep.published.0.values' has 3 number(s), but must have 2"},
+    {"[[sweep.published]]\nsource = \"A\"\nquantity = \"wall_secs\"\nexponent = 2",
+     "file.toml:3:12: key 'sweep.published.0.quantity' is \"wall_secs\", but must be one of "
+     "tau_translation, "},
+    {"[[sweep.published]]\nsource = \"A\"\nquantity = \"wall_seconds\"",
+     "key 'sweep.published.0.values' excludes exponent; give one of the two"},
+    {"[[sweep.published]]\nquantity = \"wall_seconds\"\nexponent = 2",
+     "key 'sweep.published.0.source' is missing; name the publication"},
 };
 
 TEST(ParameterFile, EveryImpossibleValueIsRefusedWithItsPlace) {
@@ -687,6 +697,27 @@ TEST(SweepJobs, KeysAdvanceTogether) {
   }
   EXPECT_EQ(&job_named(jobs, ids[3]), &jobs[3]);
   EXPECT_THROW(job_named(jobs, "packing_fraction-0.7_seed-1"), UserError);
+  std::filesystem::remove(file);
+}
+
+TEST(SweepJobs, PublishedValuesBelongToTheStepsOfTheFirstAxis) {
+  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_published.toml";
+  std::ofstream(file) << "[sweep.grid]\n\"system.packing_fraction\" = [0.4, 0.5, 0.6]\n"
+                         "\"system.seed\" = [1, 2]\n"
+                         "[[sweep.published]]\nsource = \"A\"\nquantity = \"diffusion\"\n"
+                         "values = [3, 2, 1]\n"
+                         "[[sweep.published]]\nsource = \"B\"\nquantity = \"diffusion\"\n"
+                         "exponent = -2\nfrom = 0.5\n";
+  const std::vector<SweepJob> jobs = sweep_jobs({file, {}, {}});
+  for (std::size_t k = 0; k < 6; ++k) {
+    ASSERT_EQ(jobs[k].published.size(), 2u);
+    EXPECT_EQ(jobs[k].published[0].value, 3.0 - static_cast<double>(k / 2));
+    EXPECT_FALSE(jobs[k].published[0].is_exponent);
+    EXPECT_EQ(jobs[k].published[1].value, -2);
+    EXPECT_TRUE(jobs[k].published[1].is_exponent);
+    EXPECT_EQ(jobs[k].published[1].from, 0.5);
+    EXPECT_EQ(jobs[k].published[1].to, std::numeric_limits<double>::infinity());
+  }
   std::filesystem::remove(file);
 }
 

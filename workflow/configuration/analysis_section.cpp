@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -115,6 +118,43 @@ void validate_structure(const StructureOptions& p) {
   steps(p.pairs.distance_max, p.pairs.distance_step, "distance_max", "distance_step");
 }
 
+void describe_published(PublishedResult& p, FieldVisitor& visit) {
+  visit.field({"source", "", "The publication, as legends name it."}, p.source);
+  visit.field({"quantity", "",
+               "The column of the table of jobs with which the results are compared, for example "
+               "wall_seconds."},
+              p.quantity);
+  visit.field({"values", "as the quantity",
+               "One for each step of [sweep.together], or without that, for each value of the "
+               "first key of [sweep.grid]."},
+              p.values);
+  visit.optional({"exponent", "",
+                  "Instead of values: the power of the abscissa with which the quantity grows."},
+                 p.exponent, 1.5);
+  visit.optional({"from", "as the abscissa", "The exponent holds from here."}, p.from, 1.0);
+  visit.optional({"to", "as the abscissa", "The exponent holds up to here."}, p.to, 10.0);
+}
+
+std::size_t SweepParameters::first_axis_steps() const {
+  const ParameterGrid& first = together.empty() ? grid : together;
+  return first.empty() ? 1 : first.front().second.size();
+}
+
+void validate_published(const PublishedResult& p, std::size_t steps, const std::string& path) {
+  const Rules rules(path);
+  const std::vector<std::string> known = jobs_quantities();
+  rules.require(!p.source.empty(), "source", "is missing; name the publication");
+  rules.require(
+      std::ranges::count(known, p.quantity) > 0, "quantity",
+      fmt::format("is \"{}\", but must be one of {}", p.quantity, fmt::join(known, ", ")));
+  rules.require(p.values.empty() == p.exponent.has_value(), "values",
+                "excludes exponent; give one of the two");
+  rules.require(p.exponent || p.values.size() == steps, "values",
+                fmt::format("has {} number(s), but must have {}, one for each step of the first "
+                            "axis of the sweep",
+                            p.values.size(), steps));
+}
+
 void validate_sweep(const SweepParameters& p) {
   std::set<std::string> keys;
   for (const auto& [table, grid] :
@@ -137,6 +177,8 @@ void validate_sweep(const SweepParameters& p) {
                       "together and need as many values each",
                       values.size(), first, wanted.size()));
   }
+  for (std::size_t k = 0; k < p.published.size(); ++k)
+    validate_published(p.published[k], p.first_axis_steps(), fmt::format("sweep.published.{}", k));
 }
 
 }  // namespace vitrel

@@ -200,6 +200,10 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
                      "or as "
                      "many as it takes to tell the jobs apart."},
                     p.sweep.together);
+            in.list({"published", "",
+                     "Results of a publication, which tables and charts of the sweep show beside "
+                     "its own. A file may contain any number of them."},
+                    p.sweep.published, describe_published);
           });
   };
 }

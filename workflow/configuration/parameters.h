@@ -108,6 +108,15 @@ struct OutputParameters {
   double checkpoint_interval = 30;
 };
 
+/// What a publication says of a sweep like this: numbers, or a power law.
+struct PublishedResult {
+  std::string source;
+  std::string quantity;                 ///< the column of the table of jobs
+  std::vector<double> values = {};      ///< for every step of the first axis of the sweep, or none
+  std::optional<double> exponent = {};  ///< of the abscissa
+  std::optional<double> from = {}, to = {};  ///< the part of the abscissa in which it holds
+};
+
 /// The values that keys of the file run through in a sweep.
 struct SweepParameters {
   /// A key whose jobs start from the end of the job with the value before; none: all prepare a state of their own.
@@ -116,6 +125,10 @@ struct SweepParameters {
   std::optional<std::string> axis = {};
   ParameterGrid grid = {};      ///< every value of a key with every value of the others
   ParameterGrid together = {};  ///< the k-th values of all keys together
+  std::vector<PublishedResult> published = {};
+
+  /// Of those that advance together, or else of the first key of the grid; 1 without both.
+  std::size_t first_axis_steps() const;
 };
 
 struct Parameters {

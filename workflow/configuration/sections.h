@@ -49,6 +49,7 @@ void validate_analysis(const DisplacementOptions& p);
 void describe_structure(StructureOptions& p, FieldVisitor& visit);
 void validate_structure(const StructureOptions& p);
 
+void describe_published(PublishedResult& p, FieldVisitor& visit);
 void validate_sweep(const SweepParameters& p);
 
 }  // namespace vitrel

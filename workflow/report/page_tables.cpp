@@ -21,8 +21,9 @@ namespace {
 
 constexpr int error_digits = 3;
 // Charts need numbers of the run, wave numbers or lags; those of a study are no observables of one run.
-constexpr std::array<std::string_view, 5> without_charts = {"summary", "wave_numbers", "lag_times",
-                                                            "relaxation", "glass_fit"};
+constexpr std::array<std::string_view, 7> without_charts = {
+    "summary",   "wave_numbers", "lag_times",          "relaxation",
+    "glass_fit", "published",    "published_exponents"};
 constexpr std::string_view on_the_fly = "on_the_fly";
 
 bool is_shown(std::string_view table, const Observable* observable) {

@@ -17,6 +17,7 @@ struct Quantity {
   const char* column;
   bool is_count = false;
   bool is_of_motion = false;  ///< a state has none
+  bool is_exception = false;  ///< left out if no run has any
 };
 
 constexpr Quantity quantities[] = {{"Z", "compressibility_factor"},
@@ -35,6 +36,7 @@ constexpr Quantity quantities[] = {{"Z", "compressibility_factor"},
                                    {"early releases", "early_releases_per_collision"},
                                    {"blocked rotations", "blocked_rotations_per_collision"},
                                    {"collisions", "collisions", true},
+                                   {"correction moves", "correction_moves", true, false, true},
                                    {"speed", "collisions_per_second_with_output", true},
                                    {"time", "wall_seconds"},
                                    {"duration", "duration", false, true},
@@ -58,7 +60,12 @@ bool has_motion(const Table& table) {
 }
 
 const Column* shown(const Table& table, const Quantity& quantity) {
-  return quantity.is_of_motion && !has_motion(table) ? nullptr : shown(table, quantity.column);
+  const Column* column = shown(table, quantity.column);
+  const bool is_left_out =
+      (quantity.is_of_motion && !has_motion(table)) ||
+      (quantity.is_exception && column &&
+       !std::ranges::any_of(column->value, [](double value) { return value > 0; }));
+  return is_left_out ? nullptr : column;
 }
 
 const Column* shown_seed(const Table& table) {

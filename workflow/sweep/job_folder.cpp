@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -44,6 +46,30 @@ bool is_still_done(const SweepJob& job, const fs::path& folder, const std::strin
                    const std::string& now) {
   return !first_difference(before, now, may_change_unnoticed) &&
          job_done(folder).contains("run") != job.prepares_only;
+}
+
+Json published_json(const std::vector<Published>& published) {
+  Json list = Json::array();
+  for (const Published& entry : published) {
+    list.push_back({{"source", entry.source},
+                    {"quantity", entry.quantity},
+                    {entry.is_exponent ? "exponent" : "value", entry.value}});
+    if (std::isfinite(entry.from)) list.back()["from"] = entry.from;
+    if (std::isfinite(entry.to)) list.back()["to"] = entry.to;
+  }
+  return list;
+}
+
+std::vector<Published> published_in(const Json& list) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::vector<Published> published;
+  for (const Json& entry : list) {
+    const bool is_exponent = entry.contains("exponent");
+    published.push_back({entry.at("source"), entry.at("quantity"),
+                         entry.at(is_exponent ? "exponent" : "value"), is_exponent,
+                         entry.value("from", -infinite), entry.value("to", infinite)});
+  }
+  return published;
 }
 
 /// Jobs done by earlier versions have the former key alone, others both.
@@ -92,6 +118,7 @@ void write_job_folder(const SweepJob& job, const fs::path& folder) {
   write_text(folder / "params.json", json_text({{"id", job.id},
                                                 {"values", values_json(job)},
                                                 {"together", job.layout.together},
+                                                {"published", published_json(job.published)},
                                                 {"axis", job.layout.axis.value_or("")}},
                                                2) +
                                          "\n");
@@ -123,7 +150,8 @@ JobPlace job_place(const fs::path& folder) {
   if (!fs::exists(file)) return place;
   read_json_as("the values of a job", file, [&](const Json& job) {
     place.values = swept_values(job.at("values"));
-    // Jobs of earlier versions have neither.
+    // Jobs of earlier versions have none of these.
+    place.published = published_in(job.value("published", Json::array()));
     place.layout.together = job.value("together", std::vector<std::string>());
     if (const std::string axis = job.value("axis", ""); !axis.empty()) place.layout.axis = axis;
   });

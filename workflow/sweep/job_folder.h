@@ -51,6 +51,7 @@ Json job_done(const std::filesystem::path& folder);
 struct JobPlace {
   SweptValues values;
   StudyLayout layout;
+  std::vector<Published> published;
 };
 /// Empty for a run that belongs to no sweep. FileError.
 JobPlace job_place(const std::filesystem::path& folder);

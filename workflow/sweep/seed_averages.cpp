@@ -19,6 +19,7 @@ constexpr double one_sigma = 0.6827;
 /// Jobs with the same values but for the seed.
 struct Replicates {
   SweptValues values;
+  std::vector<Published> published;
   std::vector<const Figures*> jobs;
 };
 
@@ -29,7 +30,7 @@ std::vector<Replicates> grouped(const std::vector<JobResult>& jobs) {
     std::erase_if(values, [](const auto& pair) { return pair.first == seed_key; });
     auto group = std::find_if(groups.begin(), groups.end(),
                               [&](const Replicates& other) { return other.values == values; });
-    if (group == groups.end()) group = groups.insert(group, {std::move(values), {}});
+    if (group == groups.end()) group = groups.insert(group, {std::move(values), job.published, {}});
     group->jobs.push_back(&job.figures);
   }
   return groups;
@@ -72,7 +73,8 @@ AveragedFigure SeedAverage::find(const std::string& name) const {
 std::vector<SeedAverage> seed_averages(const std::vector<JobResult>& jobs) {
   std::vector<SeedAverage> averages;
   for (const Replicates& group : grouped(jobs)) {
-    SeedAverage& average = averages.emplace_back(SeedAverage{group.values, group.jobs.size(), {}});
+    SeedAverage& average =
+        averages.emplace_back(SeedAverage{group.values, group.jobs.size(), {}, group.published});
     for (const auto& [name, value] : *group.jobs.front())
       if (!name.ends_with(error_suffix)) average.figures.push_back(averaged(name, group.jobs));
   }

@@ -16,6 +16,7 @@ namespace vitrel {
 struct JobResult {
   SweptValues values;
   Figures figures;
+  std::vector<Published> published = {};
 };
 
 /// The average of one number over seeds, from the scatter of the seeds and the errors of the runs (mean_of_runs in
@@ -33,7 +34,8 @@ struct AveragedFigure {
 struct SeedAverage {
   SweptValues values;  ///< without the seed
   std::size_t seeds;
-  std::vector<AveragedFigure> figures;  ///< those that the first of the jobs has
+  std::vector<AveragedFigure> figures;    ///< those that the first of the jobs has
+  std::vector<Published> published = {};  ///< the same
 
   /// "packing_fraction 0.4, duration 60"; "all" without values.
   std::string name() const;

@@ -40,6 +40,14 @@ struct StudyAxis {
   std::string text(std::size_t job) const;
 };
 
+/// What a publication says of a job, or of all jobs of a sweep.
+struct Published {
+  std::string source, quantity;  ///< as PublishedResult
+  double value;                  ///< of the job; of all jobs: the exponent of the abscissa
+  bool is_exponent;
+  double from, to;  ///< where the exponent holds
+};
+
 /// How a sweep is laid out.
 struct StudyLayout {
   std::vector<std::string> together;  ///< keys that advance together

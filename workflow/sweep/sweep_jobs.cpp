@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -96,6 +97,17 @@ StudyLayout layout_of(const SweepParameters& sweep) {
   StudyLayout layout{{}, sweep.axis};
   for (const auto& [key, values] : sweep.together) layout.together.push_back(key);
   return layout;
+}
+
+std::vector<Published> published_of(const std::vector<PublishedResult>& results, std::size_t step) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::vector<Published> published;
+  for (const PublishedResult& result : results)
+    published.push_back({result.source, result.quantity,
+                         result.exponent ? *result.exponent : result.values[step],
+                         result.exponent.has_value(), result.from.value_or(-infinite),
+                         result.to.value_or(infinite)});
+  return published;
 }
 
 // What the sweep sets would silently win.
@@ -194,10 +206,13 @@ std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
   refuse_overridden_keys(axes, layout, source);
   std::vector<SweepJob> jobs;
   std::set<std::string> ids;
-  for (const std::vector<Assignments>& combination : combinations_of(axes)) {
+  const auto combinations = combinations_of(axes);
+  const std::size_t jobs_in_step = combinations.size() / common.sweep.first_axis_steps();
+  for (const std::vector<Assignments>& combination : combinations) {
     SweepJob job;
     job.id = job_id(combination, axes);
     job.layout = layout;
+    job.published = published_of(common.sweep.published, jobs.size() / jobs_in_step);
     ParameterSource job_source = source;
     for (const Assignments& choice : combination)
       for (const auto& [key, value] : choice) {

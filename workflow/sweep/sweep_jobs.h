@@ -19,7 +19,8 @@ struct SweepJob {
   std::string id;
   std::vector<std::pair<std::string, std::string>> values;  ///< dotted key, TOML text of the value
   Parameters parameters;
-  StudyLayout layout;          ///< the same for all jobs
+  StudyLayout layout;  ///< the same for all jobs
+  std::vector<Published> published;
   bool prepares_only = false;  ///< no key of [dynamics] is given: the job is a state, not a run
   std::string predecessor;     ///< the job of the ladder from whose end it starts; may be empty
 };

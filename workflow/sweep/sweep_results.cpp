@@ -18,6 +18,7 @@
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
 #include "workflow/sweep/job_folder.h"
+#include "workflow/sweep/published_tables.h"
 #include "workflow/sweep/seed_averages.h"
 
 namespace vitrel {
@@ -114,11 +115,14 @@ Figures figures_of(const Table& row) {
   return figures;
 }
 
-Table seeds_table(const AnalysedSweep& sweep, const Table& runs) {
+std::vector<SeedAverage> averages_of(const AnalysedSweep& sweep) {
   std::vector<JobResult> jobs;
   for (std::size_t k = 0; k < sweep.runs.size(); ++k)
-    jobs.push_back({sweep.values[k], figures_of(row_of(sweep.runs[k]))});
-  const std::vector<SeedAverage> averages = seed_averages(jobs);
+    jobs.push_back({sweep.values[k], figures_of(row_of(sweep.runs[k])), sweep.published[k]});
+  return seed_averages(jobs);
+}
+
+Table seeds_table(const std::vector<SeedAverage>& averages, const Table& runs) {
   std::vector<SweptValues> values;
   for (const SeedAverage& average : averages) values.push_back(average.values);
   Table table{
@@ -150,6 +154,7 @@ constexpr Quantity of_preparation[] = {
     {"overlaps", "1"},          {"wall_seconds", "s"}};
 /// What that of a run may say beyond its analysis.
 constexpr Quantity of_run[] = {{"overlaps", "1"},
+                               {"correction_moves", "1"},
                                {"early_releases_per_collision", "1"},
                                {"blocked_rotations_per_collision", "1"},
                                {"wall_seconds", "s"},
@@ -242,6 +247,7 @@ void sort_jobs(AnalysedSweep& sweep) {
   std::ranges::sort(order, {}, [&](std::size_t job) { return place_of(sweep, job); });
   pick(order, sweep.runs);
   pick(order, sweep.values);
+  pick(order, sweep.published);
   for (std::vector<StudyAxis>* axes : {&sweep.keys, &sweep.axes})
     for (StudyAxis& axis : *axes) pick(order, axis.value);
 }
@@ -282,6 +288,7 @@ AnalysedSweep analysed_sweep(const SweepProgress& progress_of_sweep, const Analy
     sweep.runs.push_back(analysed_job(folder, choice, of_job));
     JobPlace place = job_place(folder);
     sweep.values.push_back(std::move(place.values));
+    sweep.published.push_back(std::move(place.published));
     layout = std::move(place.layout);
   }
   sweep.keys = study_keys(sweep.values);
@@ -313,8 +320,11 @@ Results results_of_sweep(const AnalysedSweep& sweep, const GlassStudy& study) {
   for (const AnalysedRun& run : sweep.runs)
     results.provenance.emplace_back(fmt::format("row_{}", results.provenance.size()),
                                     run.file.string());
+  const std::vector<SeedAverage> averages = averages_of(sweep);
   if (runs_through_seeds(sweep))
-    results.tables.push_back(seeds_table(sweep, results.tables.front()));
+    results.tables.push_back(seeds_table(averages, results.tables.front()));
+  for (Table& table : published_tables(averages, sweep.axes))
+    results.tables.push_back(std::move(table));
   if (!study.runs.empty())
     for (Table& table : glass_tables(study)) results.tables.push_back(std::move(table));
   for (auto& note : glass_notes(study)) results.provenance.push_back(std::move(note));

@@ -15,8 +15,9 @@ namespace vitrel {
 struct AnalysedSweep {
   /// By the axes, or by packing fraction (to six decimals) without any, then by seed, then by name.
   std::vector<AnalysedRun> runs;
-  std::vector<SweptValues> values;  ///< of each run
-  std::vector<StudyAxis> keys;      ///< all but the seed
+  std::vector<SweptValues> values;                ///< of each run
+  std::vector<std::vector<Published>> published;  ///< of each run
+  std::vector<StudyAxis> keys;                    ///< all but the seed
   std::vector<StudyAxis> axes;  ///< those that differ (study_axes); the last one is the abscissa
 
   /// What tells a job from the others: "κ = 2, φ = 0.5, seed 1".
@@ -35,7 +36,8 @@ GlassStudy glass_study(const AnalysedSweep& sweep);
 
 /// Table `runs` has a row for every job, in their order: its name, the values of the keys, the seed, the summary of its
 /// analysis, relaxation times and verdicts. If the sweep runs through seeds, `seeds` has averages over them
-/// (seed_averages.h). The tables of the glass study follow. In the provenance are the files of the rows, row_0 …, and
+/// (seed_averages.h). What publications say stands beside it in `published` and `published_exponents`
+/// (published_tables.h). The tables of the glass study follow. In the provenance are the files of the rows, row_0 …, and
 /// the names of columns of both tables: `axis`, the abscissa of charts, and `series`, which tell curves apart, with commas.
 Results results_of_sweep(const AnalysedSweep& sweep, const GlassStudy& study);
 

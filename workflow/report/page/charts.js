@@ -114,9 +114,15 @@ function aligned(curves) {
            notes: curves.map((curve, c) => curve.notes ? column(curve, c, curve.notes) : null) };
 }
 
+/** The part of a curve that a logarithmic axis can show. */
+function atPositive(curve) {
+  const kept = [...curve.x.keys()].filter((row) => curve.x[row] > 0), pick = (values) => values && kept.map((row) => values[row]);
+  return { ...curve, x: pick(curve.x), value: pick(curve.value), error: pick(curve.error), notes: pick(curve.notes) };
+}
+
 function csvText(chart) {
   const quoted = (text) => `"${text.replaceAll('"', '""')}"`;
-  const { variant, data } = chart;
+  const { variant } = chart, data = aligned(variant.curves);
   const header = [quoted(withUnit(chart.xSymbol, chart.xUnit))];
   const columns = [chart.namesX ? data.x.map((x) => quoted(chart.namesX[x])) : data.x];
   variant.curves.forEach((curve, k) => {
@@ -348,6 +354,7 @@ class Chart {
     this.host = host;
     this.hidden = new Set();
     this.variant = this.variants[0];
+    this.wasLogX = this.logX;
     this.build();
     allCharts.push(this);
     new ResizeObserver(() => this.resize()).observe(host);
@@ -382,7 +389,25 @@ class Chart {
     add('CSV', 'the curves of', () => textAddress('text/csv', csvText(this)));
     add('SVG', 'the chart', () => textAddress('image/svg+xml', this.svg()));
     add('PNG', 'the chart', () => this.png());
+    row.append(...['logX', 'logY'].filter((scale) => this.canBeLogarithmic(scale)).map((scale) => this.scaleSwitch(scale)));
     return row;
+  }
+
+  canBeLogarithmic(scale) {
+    const numbers = this.variants.flatMap(({ curves }) => curves.flatMap(({ x, value }) => scale === 'logY' ? value : this.namesX ? [] : x));
+    return numbers.filter((number) => number > 0).length > 1 && !numbers.some((number) => number < 0);
+  }
+
+  scaleSwitch(scale) {
+    const name = scale === 'logX' ? 'log x' : 'log y';
+    const button = element('button', { type: 'button', class: 'link', 'aria-pressed': String(Boolean(this[scale])) }, name);
+    button.setAttribute('aria-label', `${this.heading}: ${name}`);
+    button.addEventListener('click', () => {
+      this[scale] = !this[scale];
+      button.setAttribute('aria-pressed', String(this[scale]));
+      this.choose(this.variants.indexOf(this.variant));
+    });
+    return button;
   }
 
   /** With titles and legend, which on the page stand around the plot. */
@@ -459,7 +484,7 @@ class Chart {
   choose(k) {
     this.variant = this.variants[k];
     this.focused = null;
-    this.data = aligned(this.variant.curves);
+    this.data = aligned(this.logX ? this.variant.curves.map(atPositive) : this.variant.curves);
     this.unit.textContent = withUnit(this.variant.symbol, this.variant.unit);
     this.frame.setAttribute('aria-label', `Chart: ${this.heading}, ${this.variant.symbol} against ${this.xSymbol}, ` +
       `${this.variant.curves.length} curve(s). Arrow keys read values.`);
@@ -493,8 +518,9 @@ class Chart {
   }
 
   options(size) {
-    const { curves, levels = [], uprights = [], rangeX = this.rangeX } = this.variant;
-    const range = this.range ?? (this.logY ? logarithmicRange : linearRange);
+    const { curves, levels = [], uprights = [] } = this.variant;
+    const rangeX = this.logX === this.wasLogX ? this.variant.rangeX ?? this.rangeX : undefined;
+    const range = this.logY ? logarithmicRange : this.range ?? linearRange;
     const scale = (logarithmic) => logarithmic ? { distr: 3, time: false } : { time: false };
     return {
       ...size,
@@ -504,13 +530,13 @@ class Chart {
       axes: [axisOptions(this.logX, 30, this.namesX), axisOptions(this.logY, labelWidth)],
       series: [{}, ...curves.map((curve) => seriesOptions(curve, !this.hidden.has(curve.id)))],
       legend: { show: false },
-      cursor: { drag: { x: false, y: false }, focus: { prox: 1e6 }, points: { size: 7 } },
+      cursor: { drag: { x: true, y: true, uni: 30, dist: 8 }, focus: { prox: 1e6 }, points: { size: 7 } },
       focus: { alpha: 0.35 },
       hooks: {
         drawAxes: [(plot) => {
           curves.forEach((_, k) => drawErrors(plot, this, k));
           uprights.forEach((upright, row) => drawUpright(plot, upright, row));
-          (this.slopes ?? []).forEach((slope) => drawSlope(plot, slope));
+          if (this.logX && this.logY) (this.slopes ?? []).forEach((slope) => drawSlope(plot, slope));
         }],
         draw: [(plot) => levels.forEach((level) => drawLevel(plot, level))],
         setSeries: [(plot, k, options) => { if (options.focus !== undefined) this.focused = k > 0 ? k - 1 : null; }],

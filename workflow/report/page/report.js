@@ -246,9 +246,12 @@ function seriesOf(jobs) {
   return series;
 }
 
+/** As the abscissa, or the same for all but for rounding errors. */
+const isGivenDensity = ({ value }) => abscissa.column.endsWith('packing_fraction') || Math.max(...value) - Math.min(...value) < 1e-6;
+
 function studyChart({ heading, symbol, scale, curves: [{ column }] }) {
   const { jobs } = study, quantity = jobs.columns[column];
-  if (!quantity?.value.some((value) => value !== null)) return;
+  if (!quantity?.value.some((value) => value !== null) || (column === 'packing_fraction' && isGivenDensity(quantity))) return;
   const { place, ...axis } = axisOf(abscissa), logY = scale === 'logarithmic' && quantity.value.some((value) => value > 0);
   const uneven = runs.some((run) => !run.evenlySampled) ? 'samples unevenly spaced in time' : tooFewBlocks;
   const curves = [...seriesOf(jobs)].map(([name, rows], k) => {
@@ -257,8 +260,65 @@ function studyChart({ heading, symbol, scale, curves: [{ column }] }) {
     return { label: name || symbol, id: k, points: 'full', colour: () => curveColour(k), x: pick(jobs.columns[abscissa.column].value).map(place),
              value: pick(quantity.value), error: pick(quantity.error), noErrors: quantity.error ? uneven : 'single numbers' };
   }).filter(({ x }) => x.length);
+  const published = [...publishedPoints(column, place), ...publishedLaws(column, curves)];
   addChart('study', { heading, ...axis, logY, range: ranges[scale], file: fileName(heading),
-    variants: [{ symbol, unit: unitOf(quantity), curves }] });
+    variants: [{ label: 'values', symbol, unit: unitOf(quantity), curves: [...curves, ...published] }, ...ratiosOf(curves, symbol)] });
+}
+
+/** The other curves over the first, where both have points. */
+function ratiosOf([first, ...others], symbol) {
+  const curves = others.map((curve) => {
+    const pairs = [...curve.x.entries()].map(([row, place]) => [row, first.x.indexOf(place)]).filter(([, below]) => below >= 0 && first.value[below]);
+    const value = pairs.map(([row, below]) => curve.value[row] / first.value[below]);
+    const relative = ({ value, error }, row) => error[row] === null ? NaN : error[row] / value[row];
+    const error = pairs.map(([row, below], k) => Math.abs(value[k]) * Math.hypot(relative(curve, row), relative(first, below)));
+    return { ...curve, x: pairs.map(([row]) => curve.x[row]), value, error: error.map((width) => Number.isNaN(width) ? null : width) };
+  }).filter(({ x }) => x.length);
+  return curves.length ? [{ label: `over that of ${first.label}`, symbol: `${symbol}, over that of ${first.label}`, unit: '', curves }] : [];
+}
+
+// What publications say of a sweep
+
+/** The rows of a table of published results about this column. */
+const rowsAbout = (table, column) => [...table?.columns.quantity.value.keys() ?? []].filter((row) => table.columns.quantity.value[row] === column);
+
+function publishedPoints(column, place) {
+  const rows = rowsAbout(study.published, column), columns = study.published?.columns;
+  return [...new Set(rows.map((row) => columns.source.value[row]))].map((source, k) => {
+    const pick = (name) => rows.filter((row) => columns.source.value[row] === source).map((row) => columns[name].value[row]);
+    return { label: source, id: `published ${k}`, points: 'hollow', colour: () => cssColour('--ink'), noErrors: 'as published',
+             x: pick(abscissa.column).map(place), value: pick('published') };
+  });
+}
+
+/** Lines through the middle of the points to which they apply. */
+function publishedLaws(column, curves) {
+  const columns = study.published_exponents?.columns, mean = (numbers) => numbers.reduce((sum, number) => sum + number / numbers.length, 0);
+  return rowsAbout(study.published_exponents, column).map((row) => {
+    const [from, to, exponent, source] = ['from', 'to', 'published', 'source'].map((name) => columns[name].value[row]);
+    const points = curves.flatMap(({ x, value }) => x.map((place, k) => [place, value[k]])).filter(([x, y]) => x >= from && x <= to && y > 0);
+    const height = mean(points.map(([x, y]) => Math.log(y) - exponent * Math.log(x)));
+    return { label: `∝ ${abscissa.symbol}^${shortNumber(exponent)}: ${source}`, id: `law ${row}`, dashed: true, colour: () => cssColour('--ink'), noErrors: 'as published',
+             x: [from, to], value: [from, to].map((x) => Math.exp(height) * x ** exponent) };
+  });
+}
+
+/** The numbers of both, side by side. */
+function publishedTable() {
+  const rows = [], heading = (column) => charts.find(({ section, curves }) => section === 'study' && curves[0].column === column).heading;
+  const add = (what, columns, row, power) => rows.push([what, `${heading(columns.quantity.value[row])}${power}`, shortNumber(columns.published.value[row], 4),
+    withError(columns.measured.value[row], columns.measured.error?.[row]), columns.source.value[row]]);
+  const values = study.published?.columns, laws = study.published_exponents?.columns;
+  values?.quantity.value.forEach((_, row) =>
+    add(study.axes.map(({ column, symbol }) => `${symbol} = ${valueText(values[column].value[row])}`).join(', '), values, row, ''));
+  laws?.quantity.value.forEach((_, row) =>
+    add(`${abscissa.symbol} = ${shortNumber(laws.from.value[row])} … ${shortNumber(laws.to.value[row])}`, laws, row, `: power of ${abscissa.symbol}`));
+  byId('published').hidden = !rows.length;
+  byId('published-rows').replaceChildren(...rows.map((cells) => {
+    const line = element('tr');
+    line.append(...cells.map((text) => element('td', {}, text)));
+    return line;
+  }));
 }
 
 // Glass
@@ -388,6 +448,7 @@ function studyCharts() {
     if (ofGlass) ofGlass();
     else if (study.jobs) studyChart(chart);
   }
+  publishedTable();
 }
 
 // The page
