@@ -7,7 +7,7 @@
 
 /// @file
 /// The event loop without any of its devices: no calendar, no neighbour lists, no cells, as in the
-/// program of the thesis (thesis-elliptic-disks, chapters 3.1 and 4.1). The baseline of the engine.
+/// program of the thesis (woetzel2012, chapters 3.1 and 4.1). The baseline of the engine.
 namespace vitrel::bench {
 
 /// Which pairs are asked for their next collision after an event.

@@ -14,7 +14,7 @@ namespace vitrel::bench {
 ///     (v² − Γ²) t² + 2 (d·v − R Γ) t + d² − R² = 0,
 ///     (d·v − RΓ)² − (v² − Γ²)(d² − R²) = |R v − Γ d|² − (d × v)²,
 /// the right side without cancellation. |d + v t| − R − Γ t is convex in t, so that the circles
-/// overlap during one interval at most. Source: thesis-elliptic-disks, section 3.2.1, with growth added.
+/// overlap during one interval at most. Source: woetzel2012, section 3.2.1, with growth added.
 struct Bracket {
   double earliest = 0;   ///< the circumcircles touch; 0 if they overlap at the start
   double latest = 0;     ///< the incircles touch, the circumcircles part, or the horizon

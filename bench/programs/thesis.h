@@ -16,7 +16,7 @@ struct ThesisOptions {
   std::uint64_t seed = 1;
 };
 
-/// `vitrel-bench thesis`: what the figures of chapter 4 of the thesis show (thesis-elliptic-disks), with
+/// `vitrel-bench thesis`: what the figures of chapter 4 of the thesis show (woetzel2012), with
 /// its program (all pairs, SLSQP) and with this one.
 int thesis(const ThesisOptions& options, const OutputOptions& output);
 

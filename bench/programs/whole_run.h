@@ -16,7 +16,7 @@ struct WholeRunOptions {
   std::vector<std::string> methods;  ///< by name; empty: all
 };
 
-/// `vitrel-bench whole-run`: the scene of the thesis (thesis-elliptic-disks), run with every method that
+/// `vitrel-bench whole-run`: the scene of the thesis (woetzel2012), run with every method that
 /// can carry a run, at every tolerance. Throws UserError for an unknown method.
 int whole_run(const WholeRunOptions& options, const OutputOptions& output);
 

@@ -10,7 +10,7 @@
 #include "edmd/engine.h"
 
 /// @file
-/// The simulations of chapter 4 of the thesis (thesis-elliptic-disks), with its program and with this one.
+/// The simulations of chapter 4 of the thesis (woetzel2012), with its program and with this one.
 namespace vitrel::bench {
 
 /// N equal particles with a b = 1 in a square box.

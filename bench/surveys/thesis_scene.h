@@ -3,7 +3,7 @@
 #include "core/io/json.h"
 
 /// @file
-/// The scene of appendix B.1 of the thesis (thesis-elliptic-disks): two ellipses with a = 1, b = 0.5, one
+/// The scene of appendix B.1 of the thesis (woetzel2012): two ellipses with a = 1, b = 0.5, one
 /// at rest at the origin, the other coming from (1, 1) at (−1, 0), turning at π. They touch first at
 /// t = 0.0847, overlap, and touch again from inside the overlap at t = 1, a trap for root finders
 /// and optimisers.

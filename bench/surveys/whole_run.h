@@ -9,7 +9,7 @@
 
 namespace vitrel::bench {
 
-/// How a whole Newtonian run of the scene of the thesis (thesis-elliptic-disks; N = 100, κ = 2, φ = 0.5, from a square
+/// How a whole Newtonian run of the scene of the thesis (woetzel2012; N = 100, κ = 2, φ = 0.5, from a square
 /// lattice) goes when one method predicts its collisions. What it overlooks becomes an overlap, for
 /// which the thesis has its correction move.
 struct WholeRun {

@@ -5,7 +5,7 @@
 
 namespace vitrel::bench {
 
-/// Augmented Lagrangian, equation (3.28) of thesis-elliptic-disks, for E₁ ≤ 0 and E₂ ≤ 0: the Lagrangian of the
+/// Augmented Lagrangian, equation (3.28) of woetzel2012, for E₁ ≤ 0 and E₂ ≤ 0: the Lagrangian of the
 /// problem plus a quadratic penalty, minimised again and again while the multipliers are updated.
 /// NLopt's implementation (AUGLAG, after Birgin and Martínez) with a preconditioned truncated Newton
 /// method inside (of NLopt's methods it stays closest to the optimum), in

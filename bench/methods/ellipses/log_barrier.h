@@ -5,7 +5,7 @@
 
 namespace vitrel::bench {
 
-/// Logarithmic barrier with a decreasing parameter, equation (3.27) of thesis-elliptic-disks: minimise, from
+/// Logarithmic barrier with a decreasing parameter, equation (3.27) of woetzel2012: minimise, from
 /// where the last minimum was,
 ///     f(y) = τ − μ (ln(−E₁) + ln(−E₂)),   μ = 0.1, 0.01, … down to `tolerance` (usual 1e-10),
 /// in the variables of ScaledProblem by damped Newton steps (newton.h). Every point stays inside

@@ -5,7 +5,7 @@
 
 namespace vitrel::bench {
 
-/// Quadratic penalty with a decreasing parameter, equation (3.26) of thesis-elliptic-disks: minimise, from where
+/// Quadratic penalty with a decreasing parameter, equation (3.26) of woetzel2012: minimise, from where
 /// the last minimum was,
 ///     f(y) = τ + (E₁² + E₂²)/2μ,   μ = 1, 0.1, … down to `tolerance` (usual 1e-10),
 /// in the variables of ScaledProblem, 0 ≤ τ ≤ 1, by damped Newton steps with exact second

@@ -25,7 +25,7 @@ struct ClosestPoint {
 /// The smallest μ belongs to the minimum (gander1989), and it has the smallest real part of all: for complex μ with a smaller real part, |Σ gᵢ²/(λᵢ − μ)²| < 1 in the eigenbasis of
 /// S. Rounding that makes a complex pair of a double root therefore does no harm. In that basis wᵢ =
 /// −gᵢ/(λᵢ − μ); should a denominator vanish (the origin on an axis of the ellipse), |w| = 1 gives that
-/// component. Sources: thesis-elliptic-disks, section 3.2.2; gander1989.
+/// component. Sources: woetzel2012, section 3.2.2; gander1989.
 ClosestPoint closest_to_origin(const Vec2& c, const Mat2& m);
 
 /// The root of the distance minus 1 (figure 3.11 of the thesis): scan of the bracket in steps of
