@@ -266,7 +266,7 @@ class Page(PageTest):
                                            "Orientations kept; dashed: 1/e", "Displacement in widths 2b; dashed: 1"])
         self.open("sweep.html")
         self.assertEqual(self.headings(), ["Relaxation times", "Diffusion", "Compressibility factor", "Nematic order",
-                                           "Speed of the simulation"] + curves)
+                                           "Collisions", "Speed of the simulation"] + curves)
         blank = self.browser.evaluate(f"(() => {{ {PIXELS}" + """
           return [...document.querySelectorAll('.chart')].filter((chart) =>
             new Set(new Uint32Array(pixels(chart.querySelector('canvas')).data.buffer)).size < 20)
@@ -461,8 +461,8 @@ class Page(PageTest):
 
     def test_a_run_begins_with_its_verdict_and_its_relaxation_times(self):
         self.open("run.html")
-        self.assertEqual(self.section_headings()[:2], ["Result", "Particles"])
-        rows = self.browser.evaluate("""[...document.querySelectorAll('section:first-of-type tr')].map((row) =>
+        self.assertEqual(self.section_headings()[:2], ["Particles", "Result"])
+        rows = self.browser.evaluate("""[...document.querySelectorAll('section:nth-of-type(2) tr')].map((row) =>
           [...row.children].map((cell) => cell.textContent))""")
         # Relaxation times are of all particles, not of the species.
         self.assertEqual(rows, [["equilibrium", "not enough time: it lasts 4 times tau_2; 16 are needed", ""],
@@ -550,7 +550,7 @@ class Page(PageTest):
     def test_charts_say_why_errors_are_missing(self):
         self.open("two_runs.html")
         self.assertEqual(self.remark("Four-point susceptibility"),
-                         "No errors for some points: too few independent blocks; samples unevenly spaced in time.")
+                         "Curves end early, no errors for some points: too few independent blocks; samples unevenly spaced in time.")
         self.assertEqual(self.remark("Overlap"), "No errors: too few independent blocks; samples unevenly spaced in time.")
         self.assertEqual(self.remark("Mean squared displacement"), "")
         self.assertEqual(self.remark("Director"), "No errors: single samples.")

@@ -193,13 +193,14 @@ function drawErrors(plot, chart, k) {
   });
 }
 
-/** Why curves lack errors, in a sentence; empty if none does that should have them. */
-function missingErrors(curves) {
-  const measured = curves.filter((curve) => curve.noErrors);
+/** Why curves end before the others or lack errors, in sentences; empty if none does that should not. */
+function missingNumbers(curves) {
+  const measured = curves.filter((curve) => curve.noErrors), cut = measured.filter(({ isCut }) => isCut);
   const bare = measured.filter((curve) => curve.value.some((value, i) => value !== null && (curve.error?.[i] ?? null) === null));
-  if (!bare.length) return '';
   const some = bare.length < measured.length || bare.some((curve) => curve.error?.some((error) => error !== null));
-  return `No errors${some ? ' for some points' : ''}: ${[...new Set(bare.map(({ noErrors }) => noErrors))].join('; ')}.`;
+  const missing = [cut.length && 'curves end early', bare.length && `no errors${some ? ' for some points' : ''}`].filter(Boolean).join(', ');
+  const reasons = new Set([...cut, ...bare].map(({ noErrors }) => noErrors));
+  return missing && `${missing[0].toUpperCase()}${missing.slice(1)}: ${[...reasons].join('; ')}.`;
 }
 
 /** A dashed line across the frame at a height with a meaning of its own. */
@@ -344,7 +345,7 @@ const printedSize = { width: 360, height: 250 };  // about half the width of a s
 /**
  * One chart in `host`. `description`: heading; xSymbol, xUnit; namesX, what the abscissas 0, 1, 2 … stand for; logX, logY; file,
  * the name of its CSV; range, slopes, hint; variants, of which a select shows one: [{label, symbol, unit, curves, levels, uprights, rangeX}].
- * A curve: {label, x, value, error, noErrors (why some are missing), notes (said with the values), colour(), points: 'full' or
+ * A curve: {label, x, value, error, noErrors (why some, or values at the end, are missing), isCut, notes (said with the values), colour(), points: 'full' or
  * 'hollow' instead of a line, dashed, thin, id}. Curves are switched off by their `id`, in the legend of the chart or from
  * outside (show); the legend names the first of each.
  */
@@ -488,7 +489,7 @@ class Chart {
     this.unit.textContent = withUnit(this.variant.symbol, this.variant.unit);
     this.frame.setAttribute('aria-label', `Chart: ${this.heading}, ${this.variant.symbol} against ${this.xSymbol}, ` +
       `${this.variant.curves.length} curve(s). Arrow keys read values.`);
-    this.remark.textContent = missingErrors(this.variant.curves);
+    this.remark.textContent = missingNumbers(this.variant.curves);
     this.fillLegend();
     this.draw();
     readOut(this);

@@ -58,7 +58,7 @@ function curveOf(table, name, chart) {
   const known = (y, i) => y !== null && (x[i] > 0 || !chart.logX);
   const [begin, end] = [value.findIndex(known), value.findLastIndex(known) + 1];
   const shown = (values) => values?.slice(Math.max(begin, 0), end);
-  return { x: shown(x), value: shown(value), error: shown(error) };
+  return { x: shown(x), value: shown(value), error: shown(error), isCut: chart.x === 'time' && ['motion', 'relaxation'].includes(chart.section) && end < value.length };
 }
 
 /** Runs are ordered, and so are their colours. */
