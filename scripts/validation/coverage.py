@@ -53,6 +53,9 @@ SYSTEMS = {
     "brownian_spheroids": ("dimension = 3\nparticles = 108\npacking_fraction = 0.45", ["aspect_ratio = 2"],
                            BROWNIAN + "duration = 400", 0.5, ""),
     "soft": ("particles = 100\npacking_fraction = 0.5", ["aspect_ratio = 1"], "duration = 200", 0.5, SOFT),
+    # Twenty relaxation times are 180: of the runs that are tested there, about half end.
+    "until_known": ("particles = 100\npacking_fraction = 0.65", ["aspect_ratio = 2"],
+                    BROWNIAN + "duration = { relaxation_times = 20, at_most = 1440 }", 0.5, ""),
     "compressed": ("particles = 100", ["aspect_ratio = 2"], None, None, COMPRESS),
 }
 
@@ -163,6 +166,22 @@ class Judged:
         return f"{self.ratio:.2f} ({self.low:.2f} to {self.high:.2f}), {100 * self.covered:.0f} %"
 
 
+def bias_text(of_systems):
+    """By what relaxation times differ on average if runs end as soon as these are known, from runs of the same seeds that
+    do not.
+    """
+    import numpy
+
+    (known, _), (fixed, _) = (of_systems[system] for system in ("until_known", "brownian_ellipses"))
+    texts = []
+    for relative in (known / fixed - 1).T:
+        bias, error = relative.mean(), relative.std(ddof=1) / math.sqrt(len(relative))
+        expect(abs(bias) < 0.01 + 3.5 * error, f"to end when relaxation is known biases its time by {bias:.2g}")
+        texts.append(f"{100 * bias:.1f} ± {100 * error:.1f} %")
+    return ("Runs that end as soon as their relaxation is known, some after 180 units of time and the others after 360, differ in "
+            f"their relaxation times from runs of the same seeds for 300 units of time by {', '.join(texts)} on average.")
+
+
 def varies(values):
     """Whether it differs between seeds: not if it is conserved, or no quantity of these particles."""
     import numpy
@@ -172,9 +191,11 @@ def varies(values):
 
 
 def measure(build):
-    judged = {}
+    judged, relaxation_times = {}, {}
     for system in SYSTEMS:
-        for quantity, (values, errors) in sampled(build, system).items():
+        found = sampled(build, system)
+        relaxation_times[system] = found.get("relaxation_times: tau")
+        for quantity, (values, errors) in found.items():
             if varies(values):
                 judged.setdefault(quantity, {})[system] = Judged(values, errors)
     wrong = [f"{quantity} of {system}: {one.cell()}" for quantity, of_systems in judged.items()
@@ -188,6 +209,8 @@ def measure(build):
 {len(SEEDS)} runs of each system differ in nothing but their seed. Scatter of the runs over their stated error, pooled
 over the points of a curve, with its 95 % interval, and the share of values within one stated error of the mean, which
 should be 68 %. All ratios lie between {LEAST} and {MOST}. "none": most runs are too short for an error, and state none.
+
+{bias_text(relaxation_times)}
 
 {table(["quantity", *(system.replace("_", " ") for system in SYSTEMS)], rows)}
 """

@@ -1,5 +1,7 @@
 #include "workflow/run/run_cost.h"
 
+#include <fmt/format.h>
+
 #include "edmd/engine.h"
 #include "edmd/hard_fluid.h"
 
@@ -42,7 +44,13 @@ double velocity_changes(const DynamicsParameters& p) {
 template <int Dim>
 std::string model_text(const Parameters& p, const Configuration<Dim>& some) {
   const std::string model = make_engine(some, dynamics_options(p).engine)->description();
-  return p.dynamics.contact ? "soft " + model : model;
+  if (!p.dynamics.contact) return model;
+  const bool is_integrated =
+      p.dynamics.contact->coefficients == ContactParameters::Coefficients::integrated;
+  return fmt::format("soft {}, {}", model,
+                     is_integrated ? "every contact integrated, as asked for"
+                                   : "contacts by a table of restitution coefficients, since they "
+                                     "depend on two or three numbers only");
 }
 
 template <int Dim>
