@@ -14,6 +14,7 @@
 #include "core/io/foreign/foreign_formats.h"
 #include "workflow/configuration/sections.h"
 #include "workflow/export/trajectory_export.h"
+#include "workflow/picture/colours.h"
 #include "workflow/sweep/sweep_export.h"
 
 namespace vitrel {
@@ -121,6 +122,7 @@ class CommandLine : public ProgramCommandLine {
     add_sweep();
     add_report();
     add_export();
+    add_picture();
     add_pair();
     add_bench();
     add_params();
@@ -289,6 +291,36 @@ class CommandLine : public ProgramCommandLine {
     add_print(sub, export_.print);
   }
 
+  void add_picture() {
+    CLI::App& sub = add("picture", "Draw a state or a frame of a run, or make a film of a run.",
+                        picture_command, picture_);
+    sub.footer(exit_codes + stopped_code);
+    add_file(sub, "file", picture_.input, "State or run")->required();
+    add_import(sub, picture_.import);
+    add_output(sub, picture_.output,
+               "Picture to write: .png or, in two dimensions, .svg; or a film, .mp4, for which the "
+               "program ffmpeg must be installed; default <file>.png");
+    sub.add_option("--frames,--frame", picture_.frames,
+                   "Which frames, as Python's slices: 7, -1 (the last), first:end:step; a picture "
+                   "shows one (the last), a film several (all)");
+    add_choice(sub, "--colour", picture_.colouring, colourings(), "COLOURING",
+               "What colours mean: orientation, species, size, displacement (from the first "
+               "frame), or in two dimensions psi6 (hexatic order); default orientation, or species "
+               "if all particles are round");
+    sub.add_option("--width", picture_.width, "Pixels (1000)")->check(between(2, 20'000));
+    sub.add_option("--azimuth", picture_.azimuth,
+                   "In three dimensions: where the camera is, degrees from x about z (304)")
+        ->check(between(-360, 360));
+    sub.add_option("--elevation", picture_.elevation, "The same, degrees above the xy plane (24)")
+        ->check(between(-90, 90));
+    sub.add_flag("--whole", picture_.whole,
+                 "In three dimensions: every particle once and whole, instead of all images cut at "
+                 "the faces of the box");
+    sub.add_option("--rate", picture_.rate, "Of a film: frames per second (25)")
+        ->check(between(0.1, 1000));
+    add_print(sub, picture_.print);
+  }
+
   CLI::App& add_pair_question(CLI::App& pair, const std::string& name, const std::string& sentence,
                               int (*work)(const PairOptions&)) {
     CLI::App& sub = add_below(pair, name, sentence, work, pair_);
@@ -393,6 +425,7 @@ class CommandLine : public ProgramCommandLine {
   SweepOptions sweep_;
   ReportOptions report_;
   ExportOptions export_;
+  PictureOptions picture_;
   PairOptions pair_;
   ImpactOptions impact_;
   ParamsOptions params_;

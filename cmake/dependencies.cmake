@@ -2,6 +2,8 @@
 include(cmake/vitrel-requirements.cmake)
 vitrel_require(Boost 1.74 2 CONFIG)
 vitrel_require(CLI11 2.1 3)
+# FindPNG does not set PNG_VERSION.
+find_package(PNG 1.6 REQUIRED)
 # UDUNITS-2 has no CMake package.
 find_library(UDUNITS2_LIBRARY udunits2 REQUIRED)
 find_path(UDUNITS2_INCLUDE_DIR udunits2.h REQUIRED)

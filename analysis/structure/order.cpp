@@ -159,4 +159,12 @@ HexaticOrder hexatic_order(const Configuration2& configuration) {
   return {std::abs(sum) / n, magnitudes / n};
 }
 
+std::vector<double> local_hexatic_orders(const Configuration2& configuration) {
+  const Voronoi voronoi(configuration);
+  std::vector<double> orders(configuration.size());
+  for (const std::uint32_t i : voronoi.order())
+    orders[i] = std::abs(hexatic_order(voronoi.cell(i)));
+  return orders;
+}
+
 }  // namespace vitrel

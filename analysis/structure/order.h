@@ -79,5 +79,7 @@ struct HexaticOrder {
   double local;  ///< ⟨|ψ_j|⟩: the same on lattices; well above 0 in every liquid
 };
 HexaticOrder hexatic_order(const Configuration2& configuration);
+/// |ψ_j| of every particle.
+std::vector<double> local_hexatic_orders(const Configuration2& configuration);
 
 }  // namespace vitrel

@@ -13,6 +13,7 @@ int analyze_command(const AnalyzeOptions& options);
 int check_command(const CheckOptions& options);
 int export_command(const ExportOptions& options);
 int params_command(const ParamsOptions& options);
+int picture_command(const PictureOptions& options);
 int prepare_command(const PrepareOptions& options);
 int report_command(const ReportOptions& options);
 int run_command(const RunOptions& options);

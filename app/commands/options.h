@@ -67,6 +67,19 @@ struct ParamsOptions {
   bool reference = false;  ///< print docs/parameters.md
 };
 
+struct PictureOptions {
+  PrintOptions print;
+  AnalysisOptions import;
+  std::filesystem::path input;               ///< state or run
+  std::filesystem::path output;              ///< empty: a .png beside the input
+  std::optional<std::string> frames;         ///< a slice as in Python
+  std::string colouring;                     ///< empty: as the particles suggest
+  int width = 1000;                          ///< pixels
+  std::optional<double> azimuth, elevation;  ///< of the camera in space, degrees
+  bool whole = false;                        ///< bodies in space, without images
+  std::optional<double> rate;                ///< pictures per second of a film
+};
+
 struct PrepareOptions {
   PrintOptions print;
   ParameterOptions source;

@@ -1,0 +1,111 @@
+#include "workflow/picture/film.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "core/error.h"
+#include "core/io/checked.h"
+
+namespace vitrel {
+namespace {
+
+/// Zero, or the number of an error.
+void require(int error, const char* call) {
+  if (error != 0) throw std::system_error(error, std::generic_category(), call);
+}
+
+/// The process of a program of PATH with this standard input and without standard output; nothing if there is none.
+pid_t started(std::vector<std::string> words, int input) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  require(posix_spawn_file_actions_init(&actions), "posix_spawn_file_actions_init");
+  require(posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO),
+          "posix_spawn_file_actions_adddup2");
+  require(posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0),
+          "posix_spawn_file_actions_addopen");
+  pid_t process = 0;
+  const int error =
+      posix_spawnp(&process, arguments[0], &actions, nullptr, arguments.data(), environ);
+  require(posix_spawn_file_actions_destroy(&actions), "posix_spawn_file_actions_destroy");
+  if (error != 0)
+    throw UserError(fmt::format(
+        "films are made by the program {}, which cannot be started: {}; install it, or write a "
+        "picture (.png)",
+        words[0], std::generic_category().message(error)));
+  return process;
+}
+
+}  // namespace
+
+Film::Film(const std::filesystem::path& path, int width, int height, double images_per_second)
+    : path_(path), pending_(path) {
+  std::array<int, 2> ends{};
+  checked(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), "socketpair");
+  input_ = ends[0];
+  try {
+    // Players ask for this form of colours.
+    process_ = started({"ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format",
+                        "rgb24", "-video_size", fmt::format("{}x{}", width, height), "-framerate",
+                        fmt::format("{}", images_per_second), "-i", "pipe:0", "-pix_fmt", "yuv420p",
+                        "-f", "mp4", "file:" + pending_.partial().string()},
+                       ends[1]);
+  } catch (...) {
+    static_cast<void>(::close(ends[0]));
+    static_cast<void>(::close(ends[1]));
+    throw;
+  }
+  static_cast<void>(::close(ends[1]));
+}
+
+Film::~Film() {
+  if (process_ == 0) return;
+  static_cast<void>(kill(process_, SIGKILL));
+  static_cast<void>(end_input());
+}
+
+/// Returns what waitpid says.
+int Film::end_input() {
+  static_cast<void>(::close(input_));
+  int status = 0;
+  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = 0;
+  return status;
+}
+
+void Film::add(const Image& image) {
+  for (std::size_t sent = 0; sent < image.pixels.size();) {
+    const ssize_t part =
+        send(input_, &image.pixels[sent], image.pixels.size() - sent, MSG_NOSIGNAL);
+    if (part < 0 && errno != EINTR) fail(end_input());
+    sent += static_cast<std::size_t>(std::max<ssize_t>(part, 0));
+  }
+}
+
+void Film::close() {
+  if (const int status = end_input(); status != 0) fail(status);
+  pending_.commit();
+}
+
+void Film::fail(int status) const {
+  throw FileError(fmt::format(
+      "{}: cannot be written: ffmpeg {} {}", path_.string(),
+      WIFSIGNALED(status) ? "was ended by the signal" : "ended early with the exit code",
+      WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status)));
+}
+
+}  // namespace vitrel

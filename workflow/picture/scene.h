@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "core/state/configuration.h"
+#include "workflow/picture/colours.h"
+
+namespace vitrel {
+
+/// How much of the plane is shown beyond each edge of the box, in box lengths; there the periodic images are pale.
+constexpr double plane_margin = 0.03;
+/// Of the background in what is seen there.
+constexpr double pale_share = 0.65;
+/// The width of lines over the longer side of the picture.
+constexpr double line_share = 1 / 800.;
+constexpr Colour background = {255, 255, 255}, edge_colour = {27, 31, 36};
+/// The colour of the rim of a body in the plane.
+Colour rim_of(const Colour& colour);
+
+/// How bodies in space are shown, by parallel rays. The camera is at (cos ε cos α, cos ε sin α, sin ε) from the middle of
+/// the box, with the azimuth α and the elevation ε in degrees; z is upwards.
+struct View {
+  double azimuth = 304, elevation = 24;
+  bool whole =
+      false;  ///< every particle once and whole, not all images cut at the faces of the box
+};
+
+/// Bodies as they are seen: x to the right, y upwards, z to the eye; the middle of the box is at 0.
+struct Scene {
+  /// All x with (x − centre)ᵀ inverse (x − centre) ≤ 1.
+  struct Body {
+    Vec3 centre;
+    Mat3 shape, inverse;  ///< the shape matrix and its inverse
+    Colour colour;
+  };
+  std::vector<Body> bodies;
+  Mat3 turn = Mat3::Identity();  ///< from the axes of the box to those of the view
+  Vec3 half_box;                 ///< half the sides of the box; 0 in z in the plane
+  Vec2 half;                     ///< half the sides of what is shown
+  bool in_space = false;
+  bool is_cut = false;  ///< at the faces of the box
+
+  double line_width() const { return 2 * line_share * half.maxCoeff(); }
+  /// In the plane: of a line, but at most a quarter of the minor semi-axis.
+  double rim_width(const Body& body) const;
+};
+
+/// All images of ellipses that reach into the window: the box with its margin.
+Scene scene_of(const Configuration2& configuration, const std::vector<Colour>& colours);
+Scene scene_of(const Configuration3& configuration, const std::vector<Colour>& colours,
+               const View& view);
+
+}  // namespace vitrel
