@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -39,8 +41,9 @@ double facing(const Vec3& normal) {
 
 Light shaded(const Light& colour, const Vec3& normal) {
   const double diffuse = facing(normal);
+  const double square = diffuse * diffuse, eighth = square * square * square * square;
   const Light lit = static_cast<float>(0.38 + 0.62 * diffuse) * colour +
-                    static_cast<float>(0.18 * 255 * std::pow(diffuse, 24));
+                    static_cast<float>(0.18 * 255 * eighth * eighth * eighth);
   return lit.min(255);
 }
 
@@ -69,6 +72,11 @@ struct Raster {
     return static_cast<int>(std::clamp(std::ceil(place), 0.0, static_cast<double>(end)));
   }
 };
+
+/// The largest z of the body.
+double front_of(const Scene::Body& body) {
+  return body.centre.z() + std::sqrt(body.shape(2, 2));
+}
 
 struct Edge {
   Vec3 start, end;
@@ -105,13 +113,15 @@ class Band {
   void draw(const Scene::Body& body) {
     const double height = body.shape(1, 1), lean = body.shape(0, 1) / height;
     const double width = std::max(body.shape(0, 0) - lean * body.shape(0, 1), 0.0);
+    const double front = front_of(body);
     for_rows(body.centre.y(), std::sqrt(height), [&](int row) {
       const double y = raster_.y(row) - body.centre.y();
       const double reach = std::sqrt(width * std::max(1 - y * y / height, 0.0));
       for_columns(body.centre.x() + lean * y, reach, [&](int column) {
+        Ray& ray = this->ray(row, column);
+        if (ray.depth >= front) return;
         const Vec2 place(raster_.x(column) - body.centre.x(), y);
-        scene_.in_space ? draw_solid(body, place, ray(row, column))
-                        : draw_flat(body, place, ray(row, column));
+        scene_.in_space ? draw_solid(body, place, ray) : draw_flat(body, place, ray);
       });
     });
   }
@@ -119,16 +129,20 @@ class Band {
   /// A line nearer by its width than it is, so that faces in the same place do not hide it.
   void draw(const Edge& edge) {
     const double reach = 0.5 * scene_.line_width();
-    const Vec3 along = edge.end - edge.start;
-    const double length2 = squared_norm(along.head<2>());
-    const Vec3 middle = 0.5 * (edge.start + edge.end);
-    for_rows(middle.y(), 0.5 * std::abs(along.y()) + reach, [&](int row) {
-      for_columns(middle.x(), 0.5 * std::abs(along.x()) + reach, [&](int column) {
-        const Vec2 place(raster_.x(column) - edge.start.x(), raster_.y(row) - edge.start.y());
+    const Vec3 middle = 0.5 * (edge.start + edge.end), half = 0.5 * (edge.end - edge.start);
+    const double length = norm(half.head<2>()), high = std::abs(half.y());
+    for_rows(middle.y(), high + reach, [&](int row) {
+      const double y = raster_.y(row) - middle.y();
+      // Of the whole row, or where a line without ends would be.
+      const bool flat = high <= reach;
+      const double at = flat ? 0 : y * half.x() / half.y();
+      const double wide = flat ? std::abs(half.x()) + reach : reach * length / high;
+      for_columns(middle.x() + at, wide, [&](int column) {
+        const Vec2 place(raster_.x(column) - middle.x(), y);
         const double share =
-            length2 > 0 ? std::clamp(dot(place, along.head<2>()) / length2, 0.0, 1.0) : 0;
-        if (norm(Vec2(place - share * along.head<2>())) > reach) return;
-        take(ray(row, column), edge.start.z() + share * along.z() + 2 * reach, ink);
+            length > 0 ? std::clamp(dot(place, half.head<2>()) / (length * length), -1.0, 1.0) : 1;
+        if (norm(Vec2(place - share * half.head<2>())) > reach) return;
+        take(ray(row, column), middle.z() + share * half.z() + 2 * reach, ink);
       });
     });
   }
@@ -249,17 +263,27 @@ class Band {
   std::vector<Ray> rays_;
 };
 
-/// The bodies that reach into each band, in ascending order.
+/// In space those in front first, which hide most of the others.
+std::vector<std::uint32_t> order_of_drawing(const Scene& scene) {
+  std::vector<std::uint32_t> order(scene.bodies.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (scene.in_space)
+    std::ranges::stable_sort(order, std::ranges::greater(),
+                             [&](std::uint32_t i) { return front_of(scene.bodies[i]); });
+  return order;
+}
+
+/// The bodies that reach into each band, in the order of drawing.
 std::vector<std::vector<std::uint32_t>> bodies_by_band(const Scene& scene, const Raster& raster,
                                                        std::size_t bands) {
   constexpr int rows = band_height * rays_per_pixel;
   std::vector<std::vector<std::uint32_t>> result(bands);
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+  for (const std::uint32_t i : order_of_drawing(scene)) {
     const Scene::Body& body = scene.bodies[i];
     const double reach = std::sqrt(body.shape(1, 1));
     const int end = raster.row(body.centre.y() - reach);
     for (int row = raster.row(body.centre.y() + reach) / rows; row * rows < end; ++row)
-      result[static_cast<std::size_t>(row)].push_back(static_cast<std::uint32_t>(i));
+      result[static_cast<std::size_t>(row)].push_back(i);
   }
   return result;
 }
