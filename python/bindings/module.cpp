@@ -23,6 +23,7 @@ PYBIND11_MODULE(_vitrel, module) {
   vitrel::python::wait_at_exit();
   vitrel::python::bind_pairs(module);
   vitrel::python::bind_states(module);
+  vitrel::python::bind_pictures(module);
   vitrel::python::bind_work(module);
   vitrel::python::bind_results(module);
 }

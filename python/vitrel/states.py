@@ -93,21 +93,50 @@ class State:
         """Writes the state as H5MD, which `vitrel run --from` and `vitrel.read` take."""
         self._state.write(os.fspath(path), self.parameters, overwrite)
 
-    def draw(self, axes=None, colour="angle"):
-        """Draws ellipses with their periodic images; returns the matplotlib axes.
+    def _colours(self, colour):
+        """Red, green and blue from 0 to 255, shape (N, 3)."""
+        if colour is None or isinstance(colour, str):
+            return _vitrel.particle_colours(self._state, "orientation" if colour == "angle" else colour or "")
+        numbers = numpy.asarray(colour, dtype=float)
+        if numbers.shape != (len(self),) or not numpy.isfinite(numbers).all():
+            raise _vitrel.UserError(f"colour must be a name or an array of finite numbers of the shape ({len(self)},)")
+        return _vitrel.number_colours(numbers)
 
-        `colour` is "angle" or an array of one number for each particle.
+    def picture(self, colour=None, *, width=1000, azimuth=304, elevation=24, whole=False):
+        """A picture as `vitrel picture` draws it: red, green and blue from 0 to 255, an array of the shape (height, width, 3).
+
+        Parameters
+        ----------
+        colour : str or array of one number for each particle
+            "orientation", "species", "size", in the plane "psi6", or numbers, from dark blue to yellow. By default the
+            orientation, or the species if all particles are round.
+        width : int
+            In pixels.
+        azimuth, elevation : float
+            Where the camera is, in degrees; in space.
+        whole : bool
+            Every particle once and whole, not all images cut at the faces of the box; in space.
         """
-        if self.dimension != 2:
-            raise _vitrel.UserError("states in space are not drawn; write() and open them in OVITO or ParaView")
+        if not 2 <= width <= 20000:
+            raise _vitrel.UserError(f"width is {width}, but must be between 2 and 20000 pixels")
+        view = () if self.dimension == 2 else (azimuth, elevation, whole)
+        return _vitrel.picture(self._state, self._colours(colour), width, *view)
+
+    def draw(self, axes=None, colour=None, **view):
+        """Draws the state with its periodic images; returns the matplotlib axes.
+
+        Ellipses are vectors, and ellipsoids a `picture`, which says what `colour` may be and what else there is for space.
+        """
         from matplotlib import collections, pyplot
 
         if axes is None:
             axes = pyplot.figure(figsize=(6, 6), layout="constrained").add_subplot()
-        by_angle = isinstance(colour, str) and colour == "angle"
-        values = numpy.mod(self.angle, numpy.pi) if by_angle else numpy.asarray(colour)
-        if values.shape != (len(self),):
-            raise _vitrel.UserError(f"colour must be \"angle\" or an array of the shape ({len(self)},)")
+        if self.dimension == 3:
+            axes.imshow(self.picture(colour, **view))
+            axes.set_axis_off()
+            return axes
+        if view:
+            raise _vitrel.UserError(f"{', '.join(view)}: for states in space; in the plane, ellipses are vectors")
         shifts = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
         centres = numpy.concatenate([self.position + numpy.asarray(shift) * self.box for shift in shifts])
         reach = numpy.tile(self.semi_axes[:, 0], len(shifts))
@@ -116,8 +145,8 @@ class State:
         ellipses = collections.EllipseCollection(
             2 * numpy.tile(self.semi_axes[:, 0], times)[near], 2 * numpy.tile(self.semi_axes[:, 1], times)[near],
             numpy.degrees(numpy.tile(self.angle, times)[near]), units="xy", offsets=centres[near],
-            offset_transform=axes.transData, array=numpy.tile(values, times)[near],
-            cmap="twilight" if by_angle else "viridis", edgecolors="black", linewidths=0.3)
+            offset_transform=axes.transData, facecolors=numpy.tile(self._colours(colour) / 255, (times, 1))[near],
+            edgecolors="black", linewidths=0.3)
         axes.add_collection(ellipses)
         half = self.box / 2
         axes.set(xlim=(-half[0], half[0]), ylim=(-half[1], half[1]), aspect="equal", xticks=[], yticks=[])

@@ -49,8 +49,23 @@ def test_states_in_space_have_quaternions():
     state = vitrel.State.from_arrays([[0, 0, 0]], [3, 2, 1], [10, 10, 10], orientation=[turned])
     assert state.orientation.tolist() == [turned] and state.dimension == 3
     assert state.packing_fraction == pytest.approx(4 / 3 * numpy.pi * 6 / 1000)
-    with pytest.raises(vitrel.UserError, match="OVITO"):
-        state.draw()
+
+
+def test_a_picture_in_space_is_an_array_of_colours():
+    rod = vitrel.State.from_arrays([[0, 0, 0]], [3, 1, 1], [10, 10, 10])
+    picture = rod.picture(width=102, azimuth=0, elevation=0)  # along the rod; 10 lengths and a margin
+    assert picture.shape == (102, 102, 3) and picture.dtype == numpy.uint8
+    inside = numpy.ptp(picture.astype(int), axis=2) > 9  # the background and the edges are grey
+    pixels = 102 / 10.2
+    assert abs(inside.sum() - numpy.pi * pixels**2) < 2 * numpy.pi * pixels
+    assert inside.sum() < 0.5 * (numpy.ptp(rod.picture(width=102, azimuth=90, elevation=0).astype(int), axis=2) > 9).sum()
+    axes = rod.draw(width=50, whole=True)
+    assert (axes.images[0].get_array() == rod.picture(width=50, whole=True)).all()
+    with pytest.raises(vitrel.UserError, match="psi6 are for two dimensions"):
+        rod.draw(colour="psi6")
+    with pytest.raises(vitrel.UserError, match="width is 1, but"):
+        rod.picture(width=1)
+    pyplot.close("all")
 
 
 def test_files_keep_a_state(state, tmp_path):
@@ -74,6 +89,13 @@ def test_a_picture_shows_every_particle_and_its_images(state, tmp_path):
     assert len(drawn.get_offsets()) > len(state)
     axes.figure.savefig(tmp_path / "state.pdf")
     assert (tmp_path / "state.pdf").read_bytes().startswith(b"%PDF")
-    with pytest.raises(vitrel.UserError, match="colour"):
-        state.draw(colour=[1, 2, 3])
+    assert (drawn.get_facecolors()[:, :3] * 255 == pytest.approx(state._colours("angle")[0])).all(axis=1).any()
+    assert state.picture(width=50).shape == (50, 50, 3)
+    numbers = state.draw(colour=numpy.arange(100)).collections[0].get_facecolors()
+    assert (numbers[:, :3] * 255 == pytest.approx([68, 1, 84])).all(axis=1).any()  # the dark end of viridis
+    for wrong in ([1, 2, 3], [numpy.nan] * 100, "colours"):
+        with pytest.raises(vitrel.UserError, match="colour"):
+            state.draw(colour=wrong)
+    with pytest.raises(vitrel.UserError, match="width: for states in space"):
+        state.draw(width=10)
     pyplot.close("all")

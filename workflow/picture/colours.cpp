@@ -63,7 +63,7 @@ Colour sequential_colour(double x) {
                                                                     {92, 200, 99},
                                                                     {170, 220, 50},
                                                                     {253, 231, 37}}};
-  const double place = std::clamp(x, 0.0, 1.0) * (viridis.size() - 1);
+  const double place = (x > 0 ? std::min(x, 1.0) : 0) * (viridis.size() - 1);
   const std::size_t k = std::min(static_cast<std::size_t>(place), viridis.size() - 2);
   const double share = place - static_cast<double>(k);
   Colour colour;
@@ -111,6 +111,12 @@ const std::vector<std::string>& colourings() {
   return names;
 }
 
+ColourScale range_of(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  const auto [low, high] = std::ranges::minmax(values);
+  return {low, high};
+}
+
 template <int Dim>
 std::string default_colouring(const Configuration<Dim>& configuration) {
   return rotor_count(configuration) > 0 ? "orientation" : "species";
@@ -130,8 +136,7 @@ std::vector<Colour> particle_colours(const Configuration<Dim>& configuration,
                           [&](std::size_t i) { return species_colour(configuration.species[i]); });
   if (colouring == "size") {
     const std::vector<double> values = sizes(configuration);
-    const auto [low, high] = std::ranges::minmax(values);
-    scale = {low, high};
+    scale = range_of(values);
     return sequential_colours(values, *scale);
   }
   if (colouring == "displacement")

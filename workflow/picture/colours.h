@@ -15,7 +15,7 @@ namespace vitrel {
 /// Red, green and blue in sRGB.
 using Colour = std::array<std::uint8_t, 3>;
 
-/// Viridis, for x from 0 to 1; beyond, its ends.
+/// Viridis, for x from 0 to 1; beyond, its ends, and for NaN the first.
 Colour sequential_colour(double x);
 /// Of an axis in the plane: cyclic, once around in half a turn.
 Colour orientation_colour(double angle);
@@ -39,6 +39,9 @@ std::string default_colouring(const Configuration<Dim>& configuration);
 struct ColourScale {
   double low = 0, high = 1;
 };
+
+/// From the smallest to the largest value.
+ColourScale range_of(const std::vector<double>& values);
 
 /// The colours of all particles. `scale` becomes that of psi6 and size, and is left alone by others. UserError if there
 /// is no such colouring, or if it needs the other dimension or several frames.

@@ -9,7 +9,7 @@
 namespace vitrel {
 namespace {
 
-constexpr double space_margin = 0.02;  // beyond the box, over its size
+constexpr double space_margin = 0.02;  // beyond the box, over half its size
 
 /// `turn`: from the axes of the body to those of the view.
 Scene::Body seen_body(const Vec3& centre, const Vec3& semi_axes, const Mat3& turn,
