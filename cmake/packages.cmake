@@ -40,7 +40,7 @@ endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME vitrel)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-vitrel, vitrel-bench")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, python3-vitrel, vitrel-bench")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "simulation of hard anisotropic particles
 vitrel simulates ellipses, disks, ellipsoids and spheres, from the liquid to
 the glass. It prepares dense states by Monte Carlo, runs them with

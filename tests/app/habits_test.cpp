@@ -115,7 +115,7 @@ TEST_F(HabitsTest, HelpAndVersionAreCommandsAndOptions) {
   EXPECT_EQ(output_of({"version"}), output_of({"--version"}));
   EXPECT_THAT(commands(),
               IsSupersetOf({"prepare", "run", "check", "analyze", "sweep", "report", "export",
-                            "pair", "params", "completion", "man", "help", "version"}));
+                            "pair", "params", "picture", "completion", "man", "help", "version"}));
   EXPECT_THAT(commands({"pair"}), ElementsAre("overlap", "gap", "contact-time", "restitution"));
   for (const Words& command : all_commands()) {
     const std::string help = help_of(command);

@@ -33,6 +33,7 @@ const std::vector<std::pair<Words, Words>> writers = {
     {{"run", "p.toml", "-o", "run.h5"}, {"run.h5", "run.h5.checkpoint", "run.h5.correlations.h5"}},
     {{"analyze", "run.h5"}, {"run_results.h5", "run_results/energies.csv"}},
     {{"report", "run.h5", "-o", "run.html"}, {"run.html"}},
+    {{"picture", "run.h5"}, {"run.png"}},
     {{"export", "run.h5", "--to", "csv"}, {"run.csv"}},
     {{"export", "run.h5", "--to", "gsd"}, {"run.gsd"}},
     {{"run", "p.toml", "--set", "system.dimension=3", "-o", "space.h5"}, {"space.h5"}},

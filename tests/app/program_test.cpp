@@ -410,7 +410,7 @@ TEST(Program, HelpFitsATerminalAndNamesTheExitCodesThatOccur) {
   const std::map<std::string, std::vector<int>> codes = {
       {"prepare", {0, 2, 3, 4, 5}}, {"run", {0, 2, 3, 4, 5}}, {"check", {0, 2, 3, 4, 5}},
       {"analyze", {0, 2, 3, 5}},    {"report", {0, 2, 3, 5}}, {"sweep", {0, 2, 3, 4, 5}},
-      {"export", {0, 2, 3, 5}},     {"params", {0, 2, 3}}};
+      {"export", {0, 2, 3, 5}},     {"params", {0, 2, 3}},    {"picture", {0, 2, 3, 5}}};
   for (const auto& [command, expected] : codes) {
     const Outcome help = run(folder.path(), {command, "--help"});
     EXPECT_EQ(help.code, 0);

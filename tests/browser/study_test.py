@@ -37,6 +37,7 @@ duration = 20
 SEED = 'sweep.grid.system.seed=[1, 2]'
 LENGTH = 'sweep.together.dynamics.duration=[20, 6, 2, 2, 1, 1]'
 STUDIES = {
+    **{f"ghossein_figure_{k}": ([], "Against the particles", ["Orientation ratio", "Computing time"]) for k in (2, 3, 4)},
     "ghossein_figure_5": ([], "Against the particles", ["Orientation ratio", "Computing time"]),
     "ghossein_figure_6": ([SEED, "sweep.grid.system.particles=[10, 25, 50]"], "Against the particles", ["Orientation ratio"]),
     "ghossein_figure_7": (["sweep.grid.system.particles=[10, 31, 100]"], "Against the particles", ["Computing time"]),

@@ -222,7 +222,8 @@ class Band {
     if (depth > ray.depth) ray.depth = depth, ray.seen = light;
   }
 
-  /// Whether the surface is nearer than a line is wide, to first order; x is in the body, and q = xᵀ P x.
+  /// Whether the outline is nearer than `width` to first order, at x in the body with q = xᵀ P x and the gradient P x,
+  /// or the part of it in a face.
   bool is_rim(double q, const Vec3& gradient, double width) const {
     const double rho = std::sqrt(q);
     return (1 - rho) * rho < width * norm(gradient);
@@ -246,8 +247,8 @@ class Band {
       ray.seen = shaded(colour, normalized(gradient));
     } else {
       const Vec3 normal = std::copysign(1, scene_.turn(2, ray.face)) * scene_.turn.col(ray.face);
-      ray.seen =
-          shaded_cut(colour, normal, is_rim(dot(x, gradient), gradient, scene_.line_width()));
+      const Vec3 in_face = gradient - dot(gradient, normal) * normal;
+      ray.seen = shaded_cut(colour, normal, is_rim(dot(x, gradient), in_face, scene_.line_width()));
     }
   }
 
