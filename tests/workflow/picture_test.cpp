@@ -82,8 +82,8 @@ struct Shown {
   }
 };
 
-Shown seen(const Configuration3& configuration, const View& view = {}) {
-  return {scene_of(configuration, species_colours(configuration), view), 400};
+Shown seen(const Configuration3& configuration, const View& view = {}, int width = 400) {
+  return {scene_of(configuration, species_colours(configuration), view), width};
 }
 
 bool is_ink(const Colour& colour) {
@@ -151,23 +151,23 @@ TEST(Picture, FacesOfTheBoxCutBodiesFlat) {
   EXPECT_EQ(whole.scene.bodies.size(), 1u);
 }
 
-// Along a diagonal the nearest and the farthest corner are both in the middle.
+// Lines are 1/800 of the width, here two pixels. Along a diagonal the nearest and the farthest corner are both in the middle.
 TEST(Picture, EdgesOfTheBoxAreHiddenWhereTheyAreBehind) {
   const View diagonal{45, std::atan(std::sqrt(0.5)) * 180 / pi, true};
   Configuration3 one = one_ellipsoid(Vec3::Constant(4));
-  EXPECT_TRUE(is_ink(seen(one, diagonal).at(0, 0)));
+  EXPECT_TRUE(is_ink(seen(one, diagonal, 1600).at(0, 0)));
   one = one_ellipsoid(Vec3::Ones());
   one.position[0] = {4.9, 4.9, 4.9};
-  EXPECT_FALSE(is_ink(seen(one, diagonal).at(0, 0)));
+  EXPECT_FALSE(is_ink(seen(one, diagonal, 1600).at(0, 0)));
   one.position[0] = {-4.9, -4.9, -4.9};
-  EXPECT_TRUE(is_ink(seen(one, diagonal).at(0, 0)));
-  EXPECT_EQ(seen(one, diagonal).at(1, 0.7), background);  // between edges
+  EXPECT_TRUE(is_ink(seen(one, diagonal, 1600).at(0, 0)));
+  EXPECT_EQ(seen(one, diagonal, 1600).at(1, 0.7), background);  // between edges
 }
 
 TEST(Picture, ImagesInThePlaneFillTheBoxAndArePaleOutside) {
   Configuration2 one = particles<2>({20, 20}, {{1, 1}});
   one.position[0] = {9.9, 9.9};
-  Shown shown(scene_of(one, species_colours(one)), 424);
+  Shown shown(scene_of(one, species_colours(one)), 1696);
   EXPECT_EQ(shown.scene.bodies.size(), 4u);
   for (const double x : {-9.6, 9.6})
     for (const double y : {-9.6, 9.6}) EXPECT_EQ(shown.at(x, y), species_colour(0)) << x << y;
