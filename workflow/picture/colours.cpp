@@ -17,6 +17,11 @@ namespace {
 constexpr Colour round_grey = {154, 163, 173};
 constexpr double share_beyond_scale = 0.02;
 
+Colour colour_of(std::uint32_t rgb) {
+  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8),
+          static_cast<std::uint8_t>(rgb)};
+}
+
 std::uint8_t channel(double value) {
   return static_cast<std::uint8_t>(std::lround(value));
 }
@@ -54,21 +59,15 @@ std::vector<Colour> colours_of_all(const Configuration<Dim>& configuration, Colo
 }  // namespace
 
 Colour sequential_colour(double x) {
-  static constexpr std::array<std::array<double, 3>, 9> viridis = {{{68, 1, 84},
-                                                                    {71, 44, 122},
-                                                                    {59, 81, 139},
-                                                                    {44, 113, 142},
-                                                                    {33, 144, 141},
-                                                                    {39, 173, 129},
-                                                                    {92, 200, 99},
-                                                                    {170, 220, 50},
-                                                                    {253, 231, 37}}};
+  static constexpr std::array<std::uint32_t, 9> viridis = {
+      0x440154, 0x472c7a, 0x3b518b, 0x2c718e, 0x21908d, 0x27ad81, 0x5cc863, 0xaadc32, 0xfde725};
   const double place = (x > 0 ? std::min(x, 1.0) : 0) * (viridis.size() - 1);
   const std::size_t k = std::min(static_cast<std::size_t>(place), viridis.size() - 2);
   const double share = place - static_cast<double>(k);
+  const Colour low = colour_of(viridis[k]), high = colour_of(viridis[k + 1]);
   Colour colour;
   for (std::size_t c = 0; c < colour.size(); ++c)
-    colour[c] = channel((1 - share) * viridis[k][c] + share * viridis[k + 1][c]);
+    colour[c] = channel((1 - share) * low[c] + share * high[c]);
   return colour;
 }
 
@@ -94,15 +93,9 @@ Colour orientation_colour(const Vec3& axis) {
 }
 
 Colour species_colour(std::int32_t species) {
-  static constexpr std::array<Colour, 8> palette = {{{0x00, 0x72, 0xb2},
-                                                     {0xc6, 0x52, 0x00},
-                                                     {0x00, 0x80, 0x5c},
-                                                     {0xb1, 0x40, 0x7f},
-                                                     {0x8a, 0x7a, 0x00},
-                                                     {0x6a, 0x4f, 0xc4},
-                                                     {0xa8, 0x28, 0x1c},
-                                                     {0x3c, 0x43, 0x4b}}};
-  return palette[static_cast<std::size_t>(species) % palette.size()];
+  static constexpr std::array<std::uint32_t, 8> palette = {0x0072b2, 0xc65200, 0x00805c, 0xb1407f,
+                                                           0x8a7a00, 0x6a4fc4, 0xa8281c, 0x3c434b};
+  return colour_of(palette[static_cast<std::size_t>(species) % palette.size()]);
 }
 
 const std::vector<std::string>& colourings() {
@@ -162,14 +155,6 @@ std::vector<Colour> sequential_colours(const std::vector<double>& values,
   return colours;
 }
 
-template <int Dim>
-std::vector<double> displacements(const Configuration<Dim>& first, const Configuration<Dim>& now) {
-  std::vector<double> result;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    result.push_back(norm(Vec<Dim>(now.unwrapped(i) - first.unwrapped(i))));
-  return result;
-}
-
 ColourScale displacement_scale(std::vector<double> displacements) {
   if (displacements.empty()) return {};
   const auto place = static_cast<std::ptrdiff_t>((1 - share_beyond_scale) *
@@ -185,7 +170,5 @@ template std::vector<Colour> particle_colours(const Configuration2&, const std::
                                               std::optional<ColourScale>&);
 template std::vector<Colour> particle_colours(const Configuration3&, const std::string&,
                                               std::optional<ColourScale>&);
-template std::vector<double> displacements(const Configuration2&, const Configuration2&);
-template std::vector<double> displacements(const Configuration3&, const Configuration3&);
 
 }  // namespace vitrel

@@ -52,9 +52,6 @@ std::vector<Colour> particle_colours(const Configuration<Dim>& configuration,
 
 std::vector<Colour> sequential_colours(const std::vector<double>& values, const ColourScale& scale);
 
-/// How far each particle has gone since the first of two configurations.
-template <int Dim>
-std::vector<double> displacements(const Configuration<Dim>& first, const Configuration<Dim>& now);
 /// From 0 to the displacement that 2 % of these exceed, or to 1 if that is 0.
 ColourScale displacement_scale(std::vector<double> displacements);
 

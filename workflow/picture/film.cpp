@@ -21,32 +21,12 @@
 namespace vitrel {
 namespace {
 
-/// Zero, or the number of an error.
-void require(int error, const char* call) {
-  if (error != 0) throw std::system_error(error, std::generic_category(), call);
-}
-
-/// The process of a program of PATH with this standard input and without standard output; nothing if there is none.
-pid_t started(std::vector<std::string> words, int input) {
+/// Starts a program of PATH; returns the number of the error, or 0.
+int start(std::vector<std::string> words, pid_t& process) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  require(posix_spawn_file_actions_init(&actions), "posix_spawn_file_actions_init");
-  require(posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO),
-          "posix_spawn_file_actions_adddup2");
-  require(posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0),
-          "posix_spawn_file_actions_addopen");
-  pid_t process = 0;
-  const int error =
-      posix_spawnp(&process, arguments[0], &actions, nullptr, arguments.data(), environ);
-  require(posix_spawn_file_actions_destroy(&actions), "posix_spawn_file_actions_destroy");
-  if (error != 0)
-    throw UserError(fmt::format(
-        "films are made by the program {}, which cannot be started: {}; install it, or write a "
-        "picture (.png)",
-        words[0], std::generic_category().message(error)));
-  return process;
+  return posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(), environ);
 }
 
 }  // namespace
@@ -54,21 +34,38 @@ pid_t started(std::vector<std::string> words, int input) {
 Film::Film(const std::filesystem::path& path, int width, int height, double images_per_second)
     : path_(path), pending_(path) {
   std::array<int, 2> ends{};
-  checked(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), "socketpair");
+  checked(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), "socketpair");
+  checked(fcntl(ends[0], F_SETFD, FD_CLOEXEC), "fcntl");
   input_ = ends[0];
-  try {
-    // Players ask for this form of colours.
-    process_ = started({"ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format",
-                        "rgb24", "-video_size", fmt::format("{}x{}", width, height), "-framerate",
-                        fmt::format("{}", images_per_second), "-i", "pipe:0", "-pix_fmt", "yuv420p",
-                        "-f", "mp4", "file:" + pending_.partial().string()},
-                       ends[1]);
-  } catch (...) {
-    static_cast<void>(::close(ends[0]));
-    static_cast<void>(::close(ends[1]));
-    throw;
-  }
+  // Players ask for colours of the form yuv420p.
+  const int error = start({"ffmpeg",
+                           "-nostdin",
+                           "-loglevel",
+                           "error",
+                           "-y",
+                           "-f",
+                           "rawvideo",
+                           "-pixel_format",
+                           "rgb24",
+                           "-video_size",
+                           fmt::format("{}x{}", width, height),
+                           "-framerate",
+                           fmt::format("{}", images_per_second),
+                           "-i",
+                           fmt::format("pipe:{}", ends[1]),
+                           "-pix_fmt",
+                           "yuv420p",
+                           "-f",
+                           "mp4",
+                           "file:" + pending_.partial().string()},
+                          process_);
   static_cast<void>(::close(ends[1]));
+  if (error == 0) return;
+  static_cast<void>(::close(ends[0]));
+  throw UserError(fmt::format(
+      "films are made by the program ffmpeg, which cannot be started: {}; install it, or write a "
+      "picture (.png)",
+      std::generic_category().message(error)));
 }
 
 Film::~Film() {

@@ -48,6 +48,15 @@ Frames chosen_frames(const TrajectoryReader& reader, const PictureRequest& reque
   return chosen;
 }
 
+/// How far each particle has gone.
+template <int Dim>
+std::vector<double> displacements(const Configuration<Dim>& first, const Configuration<Dim>& now) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    result.push_back(norm(Vec<Dim>(now.unwrapped(i) - first.unwrapped(i))));
+  return result;
+}
+
 /// Gives the particles of all frames their colours.
 template <int Dim>
 class Colourist {

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <numeric>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -20,15 +18,11 @@ constexpr double most_pixels = 1e8;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double parallel = 1e-9;  // rise of a face along a ray that never meets it
 
-using Light = Eigen::Array3f;  // of sRGB, from 0 to 255
+using Light = Eigen::Array3d;  // of sRGB, from 0 to 255
 
 Light light(const Colour& colour) {
-  return {static_cast<float>(colour[0]), static_cast<float>(colour[1]),
-          static_cast<float>(colour[2])};
-}
-
-Light mixed(const Light& one, const Light& other, double share) {
-  return static_cast<float>(1 - share) * one + static_cast<float>(share) * other;
+  return {static_cast<double>(colour[0]), static_cast<double>(colour[1]),
+          static_cast<double>(colour[2])};
 }
 
 const Light paper = light(background), ink = light(edge_colour);
@@ -42,14 +36,12 @@ double facing(const Vec3& normal) {
 Light shaded(const Light& colour, const Vec3& normal) {
   const double diffuse = facing(normal);
   const double square = diffuse * diffuse, eighth = square * square * square * square;
-  const Light lit = static_cast<float>(0.38 + 0.62 * diffuse) * colour +
-                    static_cast<float>(0.18 * 255 * eighth * eighth * eighth);
-  return lit.min(255);
+  const double highlight = 0.18 * 255 * eighth * eighth * eighth;
+  return ((0.38 + 0.62 * diffuse) * colour + highlight).min(255);
 }
 
 Light shaded_cut(const Light& colour, const Vec3& normal, bool is_rim) {
-  const double share = (0.62 + 0.3 * facing(normal)) * (is_rim ? 0.6 : 1);
-  return mixed(colour, Light::Constant(255), 0.12) * static_cast<float>(share);
+  return (0.88 * colour + 0.12 * 255) * (0.62 + 0.3 * facing(normal)) * (is_rim ? 0.6 : 1);
 }
 
 /// Where rays are, in the units of the scene.
@@ -72,11 +64,6 @@ struct Raster {
     return static_cast<int>(std::clamp(std::ceil(place), 0.0, static_cast<double>(end)));
   }
 };
-
-/// The largest z of the body.
-double front_of(const Scene::Body& body) {
-  return body.centre.z() + std::sqrt(body.shape(2, 2));
-}
 
 struct Edge {
   Vec3 start, end;
@@ -113,7 +100,7 @@ class Band {
   void draw(const Scene::Body& body) {
     const double height = body.shape(1, 1), lean = body.shape(0, 1) / height;
     const double width = std::max(body.shape(0, 0) - lean * body.shape(0, 1), 0.0);
-    const double front = front_of(body);
+    const double front = body.front();
     for_rows(body.centre.y(), std::sqrt(height), [&](int row) {
       const double y = raster_.y(row) - body.centre.y();
       const double reach = std::sqrt(width * std::max(1 - y * y / height, 0.0));
@@ -142,7 +129,9 @@ class Band {
         const double share =
             length > 0 ? std::clamp(dot(place, half.head<2>()) / (length * length), -1.0, 1.0) : 1;
         if (norm(Vec2(place - share * half.head<2>())) > reach) return;
-        take(ray(row, column), middle.z() + share * half.z() + 2 * reach, ink);
+        const double depth = middle.z() + share * half.z() + 2 * reach;
+        Ray& ray = this->ray(row, column);
+        if (depth > ray.depth) ray.depth = depth, ray.seen = ink;
       });
     });
   }
@@ -154,7 +143,7 @@ class Band {
       const Vec2 place(raster_.x(column), raster_.y(row));
       const double outside = (place.cwiseAbs() - scene_.half_box.head<2>()).maxCoeff();
       Light& seen = ray(row, column).seen;
-      if (outside > 0) seen = mixed(seen, paper, pale_share);
+      if (outside > 0) seen = (1 - pale_share) * seen + pale_share * paper;
       if (std::abs(outside) <= reach) seen = ink;
     });
   }
@@ -218,10 +207,6 @@ class Band {
     }
   }
 
-  static void take(Ray& ray, double depth, const Light& light) {
-    if (depth > ray.depth) ray.depth = depth, ray.seen = light;
-  }
-
   /// Whether the outline is nearer than `width` to first order, at x in the body with q = xᵀ P x and the gradient P x,
   /// or the part of it in a face.
   bool is_rim(double q, const Vec3& gradient, double width) const {
@@ -264,27 +249,17 @@ class Band {
   std::vector<Ray> rays_;
 };
 
-/// In space those in front first, which hide most of the others.
-std::vector<std::uint32_t> order_of_drawing(const Scene& scene) {
-  std::vector<std::uint32_t> order(scene.bodies.size());
-  std::iota(order.begin(), order.end(), 0);
-  if (scene.in_space)
-    std::ranges::stable_sort(order, std::ranges::greater(),
-                             [&](std::uint32_t i) { return front_of(scene.bodies[i]); });
-  return order;
-}
-
-/// The bodies that reach into each band, in the order of drawing.
+/// The bodies that reach into each band, in ascending order.
 std::vector<std::vector<std::uint32_t>> bodies_by_band(const Scene& scene, const Raster& raster,
                                                        std::size_t bands) {
   constexpr int rows = band_height * rays_per_pixel;
   std::vector<std::vector<std::uint32_t>> result(bands);
-  for (const std::uint32_t i : order_of_drawing(scene)) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Scene::Body& body = scene.bodies[i];
     const double reach = std::sqrt(body.shape(1, 1));
     const int end = raster.row(body.centre.y() - reach);
     for (int row = raster.row(body.centre.y() + reach) / rows; row * rows < end; ++row)
-      result[static_cast<std::size_t>(row)].push_back(i);
+      result[static_cast<std::size_t>(row)].push_back(static_cast<std::uint32_t>(i));
   }
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "core/state/in_space.h"
@@ -96,6 +97,7 @@ Scene scene_of(const Configuration3& configuration, const std::vector<Colour>& c
     for (std::size_t i = 0; i < configuration.size(); ++i) add(i, configuration.position[i]);
   else
     for_each_image_in(configuration, configuration.box.lengths(), add);
+  std::ranges::stable_sort(scene.bodies, std::ranges::greater(), &Scene::Body::front);
   return scene;
 }
 

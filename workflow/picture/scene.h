@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/state/configuration.h"
@@ -21,8 +22,8 @@ Colour rim_of(const Colour& colour);
 /// the box, with the azimuth α and the elevation ε in degrees; z is upwards.
 struct View {
   double azimuth = 304, elevation = 24;
-  bool whole =
-      false;  ///< every particle once and whole, not all images cut at the faces of the box
+  /// Every particle once and whole, not all images cut at the faces of the box.
+  bool whole = false;
 };
 
 /// Bodies as they are seen: x to the right, y upwards, z to the eye; the middle of the box is at 0.
@@ -32,8 +33,11 @@ struct Scene {
     Vec3 centre;
     Mat3 shape, inverse;  ///< the shape matrix and its inverse
     Colour colour;
+
+    /// The largest z.
+    double front() const { return centre.z() + std::sqrt(shape(2, 2)); }
   };
-  std::vector<Body> bodies;
+  std::vector<Body> bodies;      ///< in space those in front first, which hide most of the others
   Mat3 turn = Mat3::Identity();  ///< from the axes of the box to those of the view
   Vec3 half_box;                 ///< half the sides of the box; 0 in z in the plane
   Vec2 half;                     ///< half the sides of what is shown
