@@ -7,6 +7,7 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
 #include "core/io/json.h"
+#include "workflow/analyze/analyze.h"
 
 namespace vitrel {
 namespace {

@@ -62,7 +62,7 @@ struct Shown {
   Colour at(double x, double y) {
     const int column = static_cast<int>((x + scene.half.x()) * pixels_per_length());
     const int row = static_cast<int>((scene.half.y() - y) * pixels_per_length());
-    const std::uint8_t* pixel = image.row(row) + 3 * column;
+    const std::uint8_t* pixel = image.pixel(row, column);
     return {pixel[0], pixel[1], pixel[2]};
   }
   /// Pixels that are neither background nor edges, which are grey up to 9.
@@ -223,9 +223,12 @@ TEST(PictureColours, OfParticles) {
 TEST(PictureColours, OfATriangularLatticeShowFullHexaticOrder) {
   Configuration2 lattice =
       particles<2>({4, 2 * std::sqrt(3)}, std::vector<Ellipse>(16, {0.4, 0.4}));
-  for (std::size_t i = 0; i < 16; ++i)
-    lattice.position[i] = {static_cast<double>(i % 4) - 1.9 + 0.5 * static_cast<double>(i / 4 % 2),
-                           (static_cast<double>(i / 4) - 1.9) * std::sqrt(0.75)};
+  for (std::size_t i = 0; i < 16; ++i) {
+    const std::size_t row = i / 4, column = i % 4;
+    const double shift = row % 2 == 0 ? 0 : 0.5;
+    lattice.position[i] = {static_cast<double>(column) - 1.9 + shift,
+                           (static_cast<double>(row) - 1.9) * std::sqrt(0.75)};
+  }
   std::optional<ColourScale> scale;
   EXPECT_EQ(particle_colours(lattice, "psi6", scale),
             std::vector<Colour>(16, sequential_colour(1)));

@@ -154,7 +154,7 @@ class Band {
         Light sum = Light::Zero();
         for (int k = 0; k < rays_per_pixel; ++k)
           for (int l = 0; l < rays_per_pixel; ++l) sum += ray(row + k, column + l).seen;
-        std::uint8_t* pixel = image.row(row / rays_per_pixel) + 3 * (column / rays_per_pixel);
+        std::uint8_t* pixel = image.pixel(row / rays_per_pixel, column / rays_per_pixel);
         for (int c = 0; c < 3; ++c)
           pixel[c] =
               static_cast<std::uint8_t>(std::lround(sum[c] / (rays_per_pixel * rays_per_pixel)));

@@ -13,8 +13,9 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> pixels;
 
-  std::uint8_t* row(int k) {
-    return &pixels[3UL * static_cast<std::size_t>(width) * static_cast<std::size_t>(k)];
+  std::uint8_t* pixel(int row, int column) {
+    return &pixels[3 * (static_cast<std::size_t>(width) * static_cast<std::size_t>(row) +
+                        static_cast<std::size_t>(column))];
   }
 };
 
