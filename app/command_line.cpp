@@ -114,7 +114,8 @@ class CommandLine : public ProgramCommandLine {
   CommandLine(int count, char** words)
       : ProgramCommandLine(
             "Simulation of hard anisotropic particles, from the liquid to the glass.", "vitrel") {
-    prepare_.command_line = run_.command_line = impact_.command_line = joined(count, words);
+    prepare_.command_line = run_.command_line = pair_.command_line = impact_.command_line =
+        joined(count, words);
     add_prepare();
     add_run();
     add_check();
@@ -341,11 +342,11 @@ class CommandLine : public ProgramCommandLine {
   }
 
   void add_pair() {
-    CLI::App& pair =
-        add_command(app_, "pair",
-                    "Two bodies: overlap, gap and contact time of ellipses or ellipsoids, and the "
-                    "restitution coefficients of soft spheres.",
-                    {});
+    CLI::App& pair = add_command(
+        app_, "pair",
+        "Two bodies: overlap, gap, contact time and path of ellipses or ellipsoids, and the "
+        "restitution coefficients of soft spheres.",
+        {});
     pair.require_subcommand(1);
     add_pair_question(pair, "overlap", "Do two bodies overlap? The exact criterion.",
                       pair_overlap_command);
@@ -355,15 +356,30 @@ class CommandLine : public ProgramCommandLine {
                                           "When and where two bodies in free flight first touch.",
                                           pair_contact_time_command);
     contact.add_option("--horizon", pair_.source.horizon, "Search until this time (100)");
-    add_choice(contact, "--rotation", pair_.source.rotation,
-               {std::begin(rotation_names), std::end(rotation_names)}, "ROTATION",
-               "Of ellipsoids with three different semi-axes: euler, or constant for a "
-               "constant angular velocity");
+    add_rotation(contact);
     contact.add_option("--method", pair_.methods, "Compare this method of vitrel-bench")
         ->take_all()
         ->allow_extra_args(false);
     contact.add_flag("--all-methods", pair_.all_methods, "Compare all methods of vitrel-bench");
+    CLI::App& path = add_pair_question(
+        pair, "path",
+        "Gap and contact functions of two bodies in free flight against time, with their first "
+        "contact: a table or a page of charts.",
+        pair_path_command);
+    path.add_option("--until", pair_.until,
+                    "From 0 to this time (until the bodies have met and parted)")
+        ->check(CLI::PositiveNumber);
+    path.add_option("--points", pair_.points, "Evenly spaced times (1000)")->check(between(2, 1e6));
+    add_rotation(path);
+    add_output(path, pair_.output, "File to write: .csv, .h5 or .html");
     add_restitution(pair);
+  }
+
+  void add_rotation(CLI::App& sub) {
+    add_choice(sub, "--rotation", pair_.source.rotation,
+               {std::begin(rotation_names), std::end(rotation_names)}, "ROTATION",
+               "Of ellipsoids with three different semi-axes: euler, or constant for a "
+               "constant angular velocity");
   }
 
   void add_restitution(CLI::App& pair) {
@@ -383,7 +399,15 @@ class CommandLine : public ProgramCommandLine {
                    "Radius of the second sphere, '0.12 m' (that of the first)");
     add_file(sub, "--table", impact_.table,
              "File to write the tabulated coefficients of this pair to, for many speeds and "
-             "impact parameters: .h5 or .csv");
+             "impact parameters: .csv, .h5, or .html for a page of colour maps");
+    add_file(
+        sub, "--scaled-table", impact_.scaled_table,
+        "The same of all materials of this law in scaled variables, elastic and at five values "
+        "of the damping: .csv, .h5 or .html");
+    add_file(
+        sub, "--paths", impact_.paths,
+        "Paths of both spheres, integrated and by the rules of hard and of soft spheres: .csv, "
+        ".h5 or .html");
     add_print(sub, impact_.print);
   }
 

@@ -11,8 +11,12 @@
 #include "app/terminal/session.h"
 #include "core/error.h"
 #include "core/io/json.h"
+#include "core/io/provenance.h"
 #include "edmd/soft/restitution_table.h"
-#include "workflow/pair/pair.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/pair/impact_figures.h"
+#include "workflow/pair/path.h"
+#include "workflow/report/page.h"
 
 namespace vitrel {
 namespace {
@@ -41,6 +45,11 @@ Json overlap_summary(const Pair<Dim>& pair) {
   Json summary = {{"overlap", found.overlap}};
   add_gap(found, summary);
   summary["touching_scale"] = found.touching_scale;
+  if constexpr (Dim == 2) {
+    summary["psi"] = found.criterion.psi;
+    summary["g_1"] = found.criterion.g1;
+    summary["g_2"] = found.criterion.g2;
+  }
   add_image(pair, found.image, summary);
   return summary;
 }
@@ -78,6 +87,17 @@ Json contact_summary(const Pair<Dim>& pair) {
     add_gap(gap_at(pair, found.prediction.time), summary);
     add_image(pair, found.image, summary);
   }
+  return summary;
+}
+
+template <int Dim>
+Json path_summary(const Pair<Dim>& pair, double end, const Results& path, const fs::path& output) {
+  Json summary = overlap_summary(pair);
+  if constexpr (Dim == 2) summary["d"] = path.find("path")->find("d")->value.front();
+  const std::vector<double>& contact = path.find("first_contact")->find("time")->value;
+  summary["first_contact"] = contact.empty() ? Json(nullptr) : Json(contact.front());
+  summary["until"] = end;
+  if (!output.empty()) summary["output"] = output.string();
   return summary;
 }
 
@@ -152,11 +172,22 @@ void print_impact(const Impact& impact, const Coefficients& found) {
   print_coefficient("ε_ṙ (rate)", &Restitution::rate, found);
 }
 
-/// The ending decides what is written.
-void require_table_file(const fs::path& table, const fs::path& input) {
-  if (table.extension() != ".h5" && table.extension() != ".csv")
-    throw UserError(fmt::format("--table {}: the name must end in .h5 or .csv", table.string()));
-  require_output_file(table, {input});
+/// The ending decides what is written. Nothing is done without a name.
+void require_figure_file(const std::string& option, const fs::path& output, const fs::path& input) {
+  if (output.empty()) return;
+  const fs::path ending = output.extension();
+  if (ending != ".h5" && ending != ".csv" && ending != ".html")
+    throw UserError(
+        fmt::format("{} {}: the name must end in .h5, .csv or .html", option, output.string()));
+  require_output_file(output, {input});
+  if (ending == ".html") require_place_of_page(output);
+}
+
+void write_page(const fs::path& output, FigurePage page, const std::string& parameters,
+                const std::string& command_line) {
+  page.parameters = parameters;
+  page.results.provenance = provenance_rows(current_provenance(command_line, "", 0));
+  write_figures(output, page);
 }
 
 int print_answer(const PairOptions& options, const PairParameters& parameters, const auto& answer) {
@@ -183,14 +214,32 @@ int pair_contact_time_command(const PairOptions& options) {
   return print_answer(options, parameters, [](const auto& pair) { return contact_summary(pair); });
 }
 
+int pair_path_command(const PairOptions& options) {
+  require_figure_file("-o", options.output, options.source.file);
+  const PairParameters parameters = load_pair(options.source);
+  return print_answer(options, parameters, [&](const auto& pair) {
+    const double end = options.until.value_or(usual_end(pair));
+    const FigurePage page = path_of_pair(pair, end, options.points);
+    if (!options.output.empty())
+      write_page(options.output, page, pair_text(parameters), options.command_line);
+    return path_summary(pair, end, page.results, options.output);
+  });
+}
+
 int pair_restitution_command(const ImpactOptions& options) {
   const Impact impact = load_impact(options.source);
-  if (!options.table.empty()) require_table_file(options.table, options.source.file);
+  require_figure_file("--table", options.table, options.source.file);
+  require_figure_file("--scaled-table", options.scaled_table, options.source.file);
+  require_figure_file("--paths", options.paths, options.source.file);
   const RestitutionTable table =
       table_of(impact, [&](const std::string& line) { remark(options.print, line); });
   const Coefficients found{integrated(impact), table(impact.scaled())};
-  if (!options.table.empty())
-    write_coefficients(options.table, impact, table, options.command_line);
+  const auto write = [&](const fs::path& output, const auto& page) {
+    if (!output.empty()) write_page(output, page(), impact_text(impact), options.command_line);
+  };
+  write(options.table, [&] { return coefficient_maps(impact, table); });
+  write(options.scaled_table, [&] { return scaled_maps(impact.contact.law); });
+  write(options.paths, [&] { return impact_paths(impact); });
   if (options.print.json)
     print_summary(options.print, impact_summary(impact, found));
   else if (!options.print.quiet)

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "app/commands/options.h"
 #include "workflow/pair/impact.h"
 #include "workflow/pair/pair_parameters.h"
@@ -11,12 +16,17 @@ struct PairOptions {
   PairSource source;
   std::vector<std::string> methods;  ///< names in vitrel-bench; empty: that of the engine
   bool all_methods = false;          ///< all those of vitrel-bench
+  // Of a path:
+  std::optional<double> until;  ///< none: usual_end
+  int points = 1000;
+  std::filesystem::path output;  ///< empty: none
+  std::string command_line;
 };
 
 struct ImpactOptions {
   PrintOptions print;
   ImpactSource source;
-  std::filesystem::path table;  ///< to write; empty: none
+  std::filesystem::path table, scaled_table, paths;  ///< to write; empty: none
   std::string command_line;
 };
 
@@ -25,6 +35,7 @@ struct ImpactOptions {
 int pair_overlap_command(const PairOptions& options);
 int pair_gap_command(const PairOptions& options);
 int pair_contact_time_command(const PairOptions& options);
+int pair_path_command(const PairOptions& options);
 int pair_restitution_command(const ImpactOptions& options);
 
 }  // namespace vitrel

@@ -160,6 +160,11 @@ ForceForm form_of_law(const ContactParameters& p) {
   return with_force(p, []<ContactForce Force>(const Force&) { return form_of<Force>(); });
 }
 
+double contact_force(const ContactParameters& p, const ContactPair& pair, double compression,
+                     double rate) {
+  return with_force(p, [&](const auto& force) { return force.force(compression, rate, pair); });
+}
+
 RestitutionTable restitution_table(const ContactParameters& p, const std::set<KindOfSphere>& kinds,
                                    int threads, const Log& log) {
   return with_force(p, [&](const auto& force) {

@@ -35,6 +35,9 @@ ContactScales thermal_scales(const ContactParameters& parameters);
 ContactScales contact_scales(const ContactParameters& parameters, const ContactPair& pair,
                              double speed);
 ForceForm form_of_law(const ContactParameters& parameters);
+/// F_n in N, as of contact_force.h.
+double contact_force(const ContactParameters& parameters, const ContactPair& pair,
+                     double compression, double rate);
 
 /// The law, the units, and what becomes of two particles of size 1 that meet head-on at the thermal
 /// speed, in lines for a person.

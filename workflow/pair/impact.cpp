@@ -6,11 +6,9 @@
 #include <cmath>
 
 #include "core/elementary.h"
-#include "core/io/provenance.h"
 #include "core/parallel.h"
 #include "core/special_values.h"
 #include "edmd/soft/restitution_table.h"
-#include "workflow/analyze/analyze.h"
 #include "workflow/configuration/sections.h"
 #include "workflow/rules.h"
 
@@ -23,16 +21,6 @@ void describe_impact(Impact& p, FieldVisitor& visit) {
                "Impact parameter over the sum of the radii, the sine of the impact angle."},
               p.impact_parameter);
   visit.quantity({"second_radius", "m", "Radius of the second particle."}, p.second_radius);
-}
-
-/// All values as TOML text.
-std::string impact_text(const Impact& impact) {
-  Impact copy = impact;
-  return write_parameters([&](FieldVisitor& visit) {
-    describe_impact(copy, visit);
-    visit.table({"contact", "", "The material."}, FieldVisitor::TableStyle::section,
-                section_of(copy.contact, describe_contact));
-  });
 }
 
 /// Without a file the defaults, of spheres.
@@ -163,13 +151,13 @@ Table coefficients_on_lattice(const Impact& impact, const RestitutionTable& tabl
   return lattice;
 }
 
-void write_coefficients(const std::filesystem::path& path, const Impact& impact,
-                        const RestitutionTable& table, const std::string& command_line) {
-  const Table lattice = coefficients_on_lattice(impact, table);
-  if (path.extension() == ".csv") return write_csv(path, lattice);
-  Results results{{lattice}, provenance_rows(current_provenance(command_line, "", 0))};
-  results.provenance.emplace_back("impact_parameters", impact_text(impact));
-  write_results(path, results);
+std::string impact_text(const Impact& impact) {
+  Impact copy = impact;
+  return write_parameters([&](FieldVisitor& visit) {
+    describe_impact(copy, visit);
+    visit.table({"contact", "", "The material."}, FieldVisitor::TableStyle::section,
+                section_of(copy.contact, describe_contact));
+  });
 }
 
 }  // namespace vitrel

@@ -50,8 +50,7 @@ RestitutionTable table_of(const Impact& impact, const Log& log);
 /// in ln v and ln(b/√(1 − b²)) over the ranges of the table; NaN where it has no value.
 Table coefficients_on_lattice(const Impact& impact, const RestitutionTable& table);
 
-/// Writes them as CSV if the name ends in .csv, otherwise as results (HDF5). Throws FileError.
-void write_coefficients(const std::filesystem::path& path, const Impact& impact,
-                        const RestitutionTable& table, const std::string& command_line);
+/// All values as TOML text.
+std::string impact_text(const Impact& impact);
 
 }  // namespace vitrel

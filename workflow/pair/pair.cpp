@@ -65,6 +65,16 @@ Vec2 surface_point(const Ellipse& ellipse, double angle, const Vec2& n) {
   return vitrel::surface_point(ellipse, {cosine, sine}, n);
 }
 
+VieillardBaron<double> criterion(const Ellipse& one, double angle1, const Ellipse& two,
+                                 double angle2, const Vec2& d) {
+  return vieillard_baron(one, angle1, two, angle2, d);
+}
+EllipsoidEta<double> criterion(const Ellipsoid& one, const Quaternion& orientation1,
+                               const Ellipsoid& two, const Quaternion& orientation2,
+                               const Vec3& d) {
+  return ellipsoid_eta(one, orientation1, two, orientation2, d);
+}
+
 /// Calls visit(shift) for the images of body 2 within `reach`, when its separation from body 1 is d.
 template <int Dim, class Visit>
 void for_each_image(const Pair<Dim>& pair, const Vec<Dim>& d, double reach, Visit&& visit) {
@@ -214,8 +224,10 @@ PairGap<Dim> gap_at(const Pair<Dim>& pair, double time) {
     closest.image = shift;
   });
   const Vec<Dim> nearest = pair.box ? Vec<Dim>(d + pair.box->translation(closest.image)) : d;
-  closest.touching_scale = std::sqrt(
-      perram_wertheim(body1, orientation_of(pose1), body2, orientation_of(pose2), nearest).value);
+  const auto orientation1 = orientation_of(pose1), orientation2 = orientation_of(pose2);
+  closest.touching_scale =
+      std::sqrt(perram_wertheim(body1, orientation1, body2, orientation2, nearest).value);
+  closest.criterion = criterion(body1, orientation1, body2, orientation2, nearest);
   if (!closest.overlap) add_closest_points<Dim>(body1, pose1, body2, pose2, nearest, closest);
   return closest;
 }

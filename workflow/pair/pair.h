@@ -2,7 +2,10 @@
 
 #include <functional>
 #include <optional>
+#include <type_traits>
 
+#include "core/contact/ellipse_vieillard_baron.h"
+#include "core/contact/ellipsoid_eta.h"
 #include "core/contact/first_contact.h"
 #include "core/state/configuration.h"
 #include "workflow/pair/pair_parameters.h"
@@ -43,6 +46,8 @@ struct PairGap {
   /// The factor by which both bodies, scaled about their centres, touch: √F of Perram and Wertheim
   /// (core/contact/perram_wertheim.h).
   double touching_scale = 0;
+  /// Ψ, G₁ and G₂ of Vieillard-Baron; in space η₁ … η₅.
+  std::conditional_t<Dim == 2, VieillardBaron<double>, EllipsoidEta<double>> criterion{};
   Shift<Dim> image = Shift<Dim>::Zero();  ///< body 2 is seen at its position + image ∘ L
   /// Unit vector from 1 to 2 along the shortest distance, and its ends on both surfaces; without meaning if they
   /// overlap.

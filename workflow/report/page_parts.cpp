@@ -130,7 +130,7 @@ std::string whole_page(PageParts parts) {
                  {"style", text("page/report.css")},
                  {"sections", filled(asset(parts.sections), parts.texts)},
                  {"parameters", escaped(parts.parameters)},
-                 {"units", units.note},
+                 {"units", parts.units_note.empty() ? units.note : parts.units_note},
                  {"unit_names", script_safe(unit_names(units))},
                  {"dimension", std::to_string(parts.dimension)},
                  {"provenance", provenance_entries(parts.provenance)},

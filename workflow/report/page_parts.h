@@ -53,6 +53,7 @@ struct PageParts {
   PageProvenance provenance;
   int dimension = 2;                    ///< of the picture, and of the units
   std::optional<FileUnits> units = {};  ///< of a file of another program
+  std::string units_note = {};          ///< a sentence instead of that on the units
 };
 std::string whole_page(PageParts parts);
 

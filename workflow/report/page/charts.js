@@ -232,7 +232,7 @@ function drawArrow(ctx, x, y) {
 
 /** An abscissa with its error: a dashed upright line in a band; of one that is open, a lower bound, with an arrow. */
 function drawUpright(plot, { value, error, open, colour, label }, row) {
-  insideFrame(plot, (ctx, { top, height }) => {
+  insideFrame(plot, (ctx, { left, top, height }) => {
     const [low, x, high] = [-1, 0, 1].map((sign) => plot.valToPos(value + sign * (error ?? 0), 'x', true));
     const y = top + height - (10 + 17 * row) * devicePixelRatio;
     ctx.fillStyle = ctx.strokeStyle = colour();
@@ -247,12 +247,14 @@ function drawUpright(plot, { value, error, open, colour, label }, row) {
     ctx.stroke();
     if (open) drawArrow(ctx, x, y - 4 * devicePixelRatio);
     ctx.font = `${12 * devicePixelRatio}px system-ui, sans-serif`;
-    ctx.textAlign = 'right';
+    const fits = x - left > ctx.measureText(label).width + 10 * devicePixelRatio;
+    const side = fits ? -5 * devicePixelRatio : 5 * devicePixelRatio;
+    ctx.textAlign = fits ? 'right' : 'left';
     ctx.strokeStyle = cssColour('--card');
     ctx.lineWidth = 4 * devicePixelRatio;
     ctx.setLineDash([]);
-    ctx.strokeText(label, x - 5 * devicePixelRatio, y);
-    ctx.fillText(label, x - 5 * devicePixelRatio, y);
+    ctx.strokeText(label, x + side, y);
+    ctx.fillText(label, x + side, y);
   });
 }
 
@@ -340,7 +342,7 @@ function drawSwatch(context, curve, x, y) {
 }
 
 const allCharts = [];
-const printedSize = { width: 360, height: 250 };  // about half the width of a sheet
+const printedWidth = 360;  // about half the width of a sheet
 
 /**
  * One chart in `host`. `description`: heading; xSymbol, xUnit; namesX, what the abscissas 0, 1, 2 … stand for; logX, logY; file,
@@ -475,8 +477,8 @@ class Chart {
 
   /** The plot as vectors beside the canvas, for the paper. */
   print() {
-    const context = new SvgContext(printedSize.width * devicePixelRatio, printedSize.height * devicePixelRatio);
-    plotOn(context, this.options(printedSize), this.columns());
+    const size = this.sizeFor(printedWidth), context = new SvgContext(size.width * devicePixelRatio, size.height * devicePixelRatio);
+    plotOn(context, this.options(size), this.columns());
     this.printed = element('div', { class: 'printed' });
     this.printed.innerHTML = context.text(devicePixelRatio);
     this.frame.append(this.printed);
@@ -503,10 +505,8 @@ class Chart {
       (shown) => this.show(curve.id, shown))));
   }
 
-  size() {
-    const width = Math.max(200, this.frame.clientWidth);
-    return { width, height: Math.round(Math.min(380, Math.max(240, 0.66 * width))) };
-  }
+  size() { return this.sizeFor(Math.max(200, this.frame.clientWidth)); }
+  sizeFor(width) { return { width, height: Math.round(Math.min(380, Math.max(240, 0.66 * width))) }; }
 
   draw() {
     this.plot?.destroy();
