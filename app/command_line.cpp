@@ -269,15 +269,16 @@ class CommandLine : public ProgramCommandLine {
     add_file(sub, "file", export_.input, "State or run")->required();
     add_choice(
         sub, "--to", export_.format, all_formats(), "FORMAT",
-        "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in two dimensions also thesis (plain "
+        "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in two dimensions also xytheta (plain "
         "text, a line of t and all x, y, angle per frame); in three dimensions also one period "
         "with all images: geo (Gmsh), vti (voxels for VTK) or vtp (points for VTK; of several "
         "frames a folder with a .pvd file for ParaView)")
+        ->transform([](std::string name) { return name == "thesis" ? "xytheta" : name; })
         ->required();
     add_import(sub, export_.import);
     add_output(sub, export_.output,
                "File or folder to write, which must not exist; default <file> with the new suffix "
-               "(.dat for thesis), or <file>_vtp for several frames");
+               "(.dat for xytheta), or <file>_vtp for several frames");
     sub.add_option("--frames", export_.frames,
                    "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all; to "
                    "geo, to vti and with --images one, the last)");
@@ -368,7 +369,7 @@ class CommandLine : public ProgramCommandLine {
         pair_path_command);
     path.add_option("--until", pair_.until,
                     "From 0 to this time (until the bodies have met and parted)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive);
     path.add_option("--points", pair_.points, "Evenly spaced times (1000)")->check(between(2, 1e6));
     add_rotation(path);
     add_output(path, pair_.output, "File to write: .csv, .h5 or .html");

@@ -178,7 +178,7 @@ void require_figure_file(const std::string& option, const fs::path& output, cons
   const fs::path ending = output.extension();
   if (ending != ".h5" && ending != ".csv" && ending != ".html")
     throw UserError(
-        fmt::format("{} {}: the name must end in .h5, .csv or .html", option, output.string()));
+        fmt::format("{} {}: the name must end in .csv, .h5 or .html", option, output.string()));
   require_output_file(output, {input});
   if (ending == ".html") require_place_of_page(output);
 }

@@ -208,7 +208,6 @@ int collision_time(const CollisionTimeOptions& options, const OutputOptions& out
   if (report.control().stop_requested()) return report.stopped_early();
   Json data = data_of(measured, supply);
   data["scene"] = thesis_scene_answers_json();
-  data["scene_curves"] = thesis_scene_curves_json();
   data["failures"] = failures_json(measured.survey.failures);
   data["overlap"] = overlap_json(overlap.rows);
   data["whole_runs"] = whole_runs_json(runs);

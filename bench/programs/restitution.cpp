@@ -2,7 +2,7 @@
 // whole domain of the source (mueller2013, tables 1 and 2)?
 //
 // Prints JSON. scripts/validate restitution builds and runs this, compares with what is wanted, and writes
-// its section of docs/validation.md with maps of the coefficients.
+// its section of docs/validation.md.
 
 #include <fmt/format.h>
 
@@ -36,9 +36,8 @@ struct Effort {
   int random_points = 200'000;
   int cells = 60;  // of the lattice of points, along each axis
   int timed = 200'000;
-  int map_points = 80;
 };
-const Effort quick{20, 500, 8, 2000, 12};
+const Effort quick{20, 500, 8, 2000};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -61,8 +60,6 @@ template <>
 struct Materials<LinearDashpot> {
   static constexpr std::array ranges{ValueRange{1e3, 1e6}, ValueRange{0.01, 1.25}};
   static LinearDashpot material(const std::array<double, 2>& x) { return {x[0], x[1]}; }
-  /// ln c_dis of the maps; elastic first.
-  static constexpr std::array<double, 4> map_damping{-INFINITY, -2, 0, 2};
 };
 
 template <>
@@ -70,7 +67,6 @@ struct Materials<Viscoelastic> {
   static constexpr std::array ranges{ValueRange{1e7, 1e11}, ValueRange{0.2, 0.5},
                                      ValueRange{1e-6, 1}};
   static Viscoelastic material(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
-  static constexpr std::array<double, 4> map_damping{-INFINITY, -2, 0, 4};
 };
 
 double mass_of(double of_radius, double of_density) {
@@ -299,62 +295,6 @@ Json tables_of_the_source(const Effort& effort) {
   return rows;
 }
 
-// --- maps ------------------------------------------------------------------------------------------------------
-
-/// The coefficients on a lattice of g and m, rows of equal m, at fixed ln c_dis (dashpot) or d.
-template <class Force>
-Json map_json(double damping, int points) {
-  RestitutionDomain domain = domain_of_the_source<Force>();
-  domain.d = {damping, damping};
-  Json map = {{"g", range_json(domain.g)}, {"m", range_json(domain.m)}};
-  if (std::isfinite(damping)) map["damping"] = damping;
-  for (int j = 0; j < points; ++j) {
-    Json rows[4];
-    for (int i = 0; i < points; ++i) {
-      const Restitution of = integrate_contact<Force>(
-          impact_at<Force>(domain, (i + 0.5) / points, (j + 0.5) / points, 0));
-      const double values[] = {of.angle, of.rate, of.distance, of.duration};
-      for (int k = 0; k < 4; ++k) rows[k].push_back(values[k]);
-    }
-    const char* names[] = {"angle", "rate", "distance", "duration"};
-    for (int k = 0; k < 4; ++k) map[names[k]].push_back(rows[k]);
-  }
-  return map;
-}
-
-template <class Force>
-Json maps_json(int points) {
-  Json maps = Json::array();
-  for (const double damping : Materials<Force>::map_damping)
-    maps.push_back(map_json<Force>(damping, points));
-  return maps;
-}
-
-// --- figure 6 ----------------------------------------------------------------------------------------------
-
-Json restitution_json(const Restitution& of) {
-  return {
-      {"distance", of.distance}, {"angle", of.angle}, {"duration", of.duration}, {"rate", of.rate}};
-}
-
-Json pair_json() {
-  const double k = 2000, r = 0.1, v = 5, e = 0.3;
-  const LinearDashpot force{k};
-  const std::array pairs{pair_of(r, r, 1140)};
-  const ScaledImpact impact = scaled_impact(force, pairs[0], v * std::sqrt(1 - e * e), v * e);
-  const ForceForm form = form_of<LinearDashpot>();
-  const RestitutionTable table(form, restitution_domain(force, pairs, 1e-3, 25), {1e-8, 0.02},
-                               all_cores);
-  return {{"stiffness", k},
-          {"radius", r},
-          {"mass", mass_of(r, 1140)},
-          {"speed", v},
-          {"eccentricity", e},
-          {"time", force.scales(v * std::sqrt(1 - e * e), pairs[0]).time},
-          {"integrated", restitution_json(form.integrate(impact))},
-          {"tabulated", restitution_json(table(impact).value())}};
-}
-
 Json measure(const Effort& effort) {
   Json result = {{"commit", program_commit()}};
   result["integration"] = {{"linear_dashpot", integration_json<LinearDashpot>(effort)},
@@ -365,9 +305,6 @@ Json measure(const Effort& effort) {
         tables_of_the_source<Viscoelastic>(effort),
         scene_tables(Viscoelastic{1e9, 0.4, 1e-4}, effort)})
     for (const Json& row : rows) result["tables"].push_back(row);
-  result["maps"] = {{"linear_dashpot", maps_json<LinearDashpot>(effort.map_points)},
-                    {"viscoelastic", maps_json<Viscoelastic>(effort.map_points)}};
-  result["pair"] = pair_json();
   return result;
 }
 

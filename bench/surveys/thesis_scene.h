@@ -13,9 +13,4 @@ namespace vitrel::bench {
 /// that the two touch first: null for no contact. Without the methods that are not made for such a pair.
 Json thesis_scene_answers_json();
 
-/// Against time, the distance d of the second ellipse from the first after the map that makes the first
-/// one the unit circle, negative if they overlap (figure 3.11 of the thesis), and the contact function Ψ
-/// of Vieillard-Baron (figure 3.15).
-Json thesis_scene_curves_json();
-
 }  // namespace vitrel::bench

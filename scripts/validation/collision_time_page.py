@@ -3,7 +3,7 @@
 import csv
 import re
 
-from validation.common import ROOT, compared, expect, processor, save_figure, table
+from validation.common import ROOT, compared, expect, pair_columns, processor, save_figure, table
 from validation.figures import failing_pair_figure, overlap_figure, scene_figure, speed_figure, whole_run_figure
 
 TITLE = "Collision time: all methods"
@@ -13,6 +13,9 @@ DURATION = 100  # of the whole runs, as in the thesis
 PAGE = ROOT / "docs/collision-time.md"
 FIGURES = "figures/collision-time"
 DATA = ROOT / "docs/data/collision-time"
+
+SCENE = ("--body", "semi_axes=1,0.5", "--body",
+         "semi_axes=1,0.5 position=1,1 velocity=-1,0 angular_velocity=3.141592653589793", "--until", "2")
 
 DEFAULT, RIVAL = "separating_axis", "slsqp"
 # Goals for the speed-up of the default method over SLSQP.
@@ -232,10 +235,10 @@ def with_part(page, name, text):
 
 
 def figures(data):
-    tolerances, curves = data["tolerances"], data["scene_curves"]
+    tolerances = data["tolerances"]
     return {"collision-time": speed_figure(tolerances, "median_error"),
             "collision-time-largest": speed_figure(tolerances, "largest_error"),
-            "scene_gap": scene_figure(curves, "distance", "d(t)"), "scene_psi": scene_figure(curves, "psi", "Ψ(t)"),
+            "scene_gap": scene_figure(data, "d", "d(t)"), "scene_psi": scene_figure(data, "psi", "Ψ(t)"),
             "overlap": overlap_figure(data["overlap"]), "whole-run": whole_run_figure(data["whole_runs"]),
             **{f"failure_{failure['method']}": failing_pair_figure(failure) for failure in data["failures"]}}
 
@@ -259,6 +262,7 @@ def write_page(data, rows):
 
 def measure(build):
     data = compared(build, "collision-time", "collision-time.json", "--pairs", PAIRS, "--seconds", SECONDS, "--duration", DURATION)
+    data["scene_path"] = pair_columns(build, "-o", "path", *SCENE)
     rows = Rows(data["rows"])
     sums = totals(rows, DEFAULT)
     expect(sums["correct"] == sums["pairs"], f"the default method is wrong: {sums}")

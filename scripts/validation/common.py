@@ -1,6 +1,7 @@
 """Helpers shared by the validations."""
 
 import contextlib
+import csv
 import json
 import math
 import os
@@ -61,6 +62,15 @@ def properties_of_test(program, test, **variables):
 def summary_of(build, command, *arguments):
     """The JSON summary of a command of the program."""
     return json.loads(output_of([build / "app/vitrel", command, *arguments, "--json"]))
+
+
+def pair_columns(build, option, *words):
+    """By name, the columns of the CSV table that `vitrel pair` writes with this option."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "table.csv")
+        output_of([build / "app/vitrel", "pair", *words, option, file, "-q"])
+        head, *rows = csv.reader(file.open(encoding="utf-8"))
+    return dict(zip(head, zip(*([float(cell) for cell in row] for row in rows))))
 
 
 def settings(overrides):

@@ -111,10 +111,11 @@ def curve_figure(title, x, y, name, marks):
     return figure, axes
 
 
-def scene_figure(curves, key, name):
-    what = {"distance": "distance", "psi": "contact function"}[key]
-    marks = [(curves["first_contact"], f"first contact, t = {curves['first_contact']:.4f}", 40), (1, "touching again, t = 1", 40)]
-    return curve_figure(f"Two ellipses that touch, overlap and touch again: {what}", curves["time"], curves[key], name, marks)[0]
+def scene_figure(data, key, name):
+    what = {"d": "distance", "psi": "contact function"}[key]
+    first, path = data["scene"][0]["time"], data["scene_path"]
+    marks = [(first, f"first contact, t = {first:.4f}", 40), (1, "touching again, t = 1", 40)]
+    return curve_figure(f"Two ellipses that touch, overlap and touch again: {what}", path["time"], path[key], name, marks)[0]
 
 
 def passing_pair_figure(pair):

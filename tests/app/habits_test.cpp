@@ -116,7 +116,7 @@ TEST_F(HabitsTest, HelpAndVersionAreCommandsAndOptions) {
   EXPECT_THAT(commands(),
               IsSupersetOf({"prepare", "run", "check", "analyze", "sweep", "report", "export",
                             "pair", "params", "picture", "completion", "man", "help", "version"}));
-  EXPECT_THAT(commands({"pair"}), ElementsAre("overlap", "gap", "contact-time", "restitution"));
+  EXPECT_THAT(commands({"pair"}), ElementsAre("overlap", "gap", "contact-time", "path", "restitution"));
   for (const Words& command : all_commands()) {
     const std::string help = help_of(command);
     EXPECT_THAT(help, HasSubstr("Usage: " + full_name(command)));
@@ -164,9 +164,9 @@ TEST_F(HabitsTest, AMisspeltWordComesWithTheNearest) {
   expect_refusal({"pair", "contact-time", "--rotation", "eular"},
                  "vitrel pair contact-time: --rotation: 'eular' is none of euler, constant; did "
                  "you mean 'euler'?");
-  expect_refusal({"export", "run.h5", "--to", "thesi"},
-                 "vitrel export: --to: 'thesi' is none of gsd, xyz, csv, thesis, geo, vti, vtp; "
-                 "did you mean 'thesis'?");
+  expect_refusal({"export", "run.h5", "--to", "xythet"},
+                 "vitrel export: --to: 'xythet' is none of gsd, xyz, csv, xytheta, geo, vti, vtp; "
+                 "did you mean 'xytheta'?");
 }
 
 TEST_F(HabitsTest, WhereNothingIsNearTheMessageSaysWhoListsWhatThereIs) {
@@ -226,10 +226,10 @@ TEST_F(HabitsTest, BashCompletesCommandsOptionsChoicesAndFiles) {
   EXPECT_THAT(offered(folder, {"ex"}), ElementsAre("export"));
   EXPECT_THAT(offered(folder, {"-"}), UnorderedElementsAre("-h", "--help", "--version"));
   EXPECT_THAT(offered(folder, {"export", "--to", ""}),
-              UnorderedElementsAre("gsd", "xyz", "csv", "thesis", "geo", "vti", "vtp"));
+              UnorderedElementsAre("gsd", "xyz", "csv", "xytheta", "geo", "vti", "vtp"));
   EXPECT_THAT(offered(folder, {"export", "run.h5", "--to", "=", "g"}),
               UnorderedElementsAre("gsd", "geo"));
-  EXPECT_THAT(offered(folder, {"export", "--to", "="}), Contains("thesis"));
+  EXPECT_THAT(offered(folder, {"export", "--to", "="}), Contains("xytheta"));
   EXPECT_THAT(offered(folder, {"params", ""}),
               UnorderedElementsAre("prepare", "run", "analyze", "sweep", "pair"));
   EXPECT_THAT(offered(folder, {"help", "pre"}), ElementsAre("prepare"));
@@ -290,7 +290,7 @@ TEST_F(HabitsTest, TheCompletionOfZshNamesAllCommandsAndOptions) {
     }
   }
   EXPECT_THAT(script, HasSubstr("    pair) _vitrel_pair ;;"));
-  EXPECT_THAT(script, HasSubstr(":FORMAT:(gsd xyz csv thesis geo vti vtp)'"));
+  EXPECT_THAT(script, HasSubstr(":FORMAT:(gsd xyz csv xytheta geo vti vtp)'"));
   EXPECT_THAT(script, HasSubstr("':params:_files'"));
   EXPECT_THAT(script, HasSubstr("Run all jobs of [sweep]"));
   folder.write("_vitrel", script);
@@ -457,12 +457,12 @@ TEST_F(HabitsTest, AMixtureMayBeDenserThanEqualDisks) {
   EXPECT_EQ(plan("1.0", "size = 0.2\n").code, 2);
 }
 
-// ---- the text of the thesis -------------------------------------------------------------------------
+// ---- plain text of t, x, y and θ ----------------------------------------------------------------------
 
-TEST_F(HabitsTest, ARunBecomesTheTextThatTheThesisReads) {
+TEST_F(HabitsTest, ARunBecomesALinePerFrame) {
   folder.write("p.toml", small_system);
   ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}).code, 0);
-  ASSERT_EQ(run(folder.path(), {"export", "run.h5", "--to", "thesis", "-q"}).code, 0);
+  ASSERT_EQ(run(folder.path(), {"export", "run.h5", "--to", "xytheta", "-q"}).code, 0);
   const std::vector<std::string> lines = lines_of(folder.read("run.dat"));
   const TrajectoryReader reader(folder / "run.h5");
   ASSERT_EQ(lines.size(), reader.frames());
@@ -478,16 +478,20 @@ TEST_F(HabitsTest, ARunBecomesTheTextThatTheThesisReads) {
   // Positions are those in the box, also of particles that have left it.
   const Configuration2 last = reader.read(reader.frames() - 1);
   EXPECT_TRUE(std::ranges::any_of(last.image, [](const auto& image) { return image.any(); }));
+  // Its former name.
+  ASSERT_EQ(run(folder.path(), {"export", "run.h5", "--to", "thesis", "-o", "former", "-q"}).code,
+            0);
+  EXPECT_EQ(folder.read("former"), folder.read("run.dat"));
 }
 
-TEST_F(HabitsTest, TheTextOfTheThesisIsForThePlane) {
+TEST_F(HabitsTest, ALinePerFrameIsForThePlane) {
   folder.write("p.toml",
                "[system]\ndimension = 3\nparticles = 5\npacking_fraction = 0.01\n[[species]]\n"
                "aspect_ratio = 1\n[[prepare.stage]]\n");
   ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
-  expect_refusal({"export", "state.h5", "--to", "thesis", "-q"},
+  expect_refusal({"export", "state.h5", "--to", "xytheta", "-q"},
                  "vitrel export: state.h5: is three-dimensional, for which --to takes gsd, xyz, "
-                 "csv, geo, vti, vtp, but not thesis");
+                 "csv, geo, vti, vtp, but not xytheta");
   EXPECT_FALSE(std::filesystem::exists(folder / "state.dat"));
 }
 

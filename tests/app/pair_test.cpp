@@ -172,6 +172,50 @@ TEST_F(PairContactTime, InABoxIsThatOfTheFirstImage) {
   }
 }
 
+// The tables themselves: tests/workflow/pair_figures_test.cpp.
+TEST_F(PairContactTime, ThePathIsATableOrAPage) {
+  const Words thesis = {"path", "--body", thesis_1, "--body", thesis_2};
+  const auto with = [&](const Words& options) {
+    Words words = thesis;
+    words.insert(words.end(), options.begin(), options.end());
+    return words;
+  };
+  const Json found = answer(thesis);
+  EXPECT_EQ(found["psi"], 125);
+  EXPECT_EQ(found["g_1"], -2);
+  EXPECT_NEAR(found["d"], std::sqrt(5) - 2, 1e-15);  // unit circles, the second one at (1, 2)
+  EXPECT_NEAR(found["first_contact"], 0.08472238582199765, early);
+  EXPECT_NEAR(found["until"], 1 + std::sqrt(3), 1e-15);
+  EXPECT_FALSE(found.contains("output"));
+  EXPECT_EQ(answer(with({"--until", "0.05"}))["first_contact"], nullptr);
+
+  EXPECT_EQ(answer(with({"--until", "2", "--points", "5", "-o", "path.csv"}))["output"],
+            "path.csv");
+  std::istringstream csv(folder_.read("path.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "time,gap,touching_scale,d,psi,g_1,g_2");
+  EXPECT_EQ(std::count(std::istreambuf_iterator<char>(csv), {}, '\n'), 5);
+  EXPECT_EQ(ask(with({"-o", "path.h5", "-q"})).code, 0);
+  const Results results = read_results(folder_ / "path.h5");
+  EXPECT_EQ(results.find("path")->rows(), 1000u);
+  EXPECT_EQ(results.find("first_contact")->rows(), 1u);
+  EXPECT_THAT(results.text("parameters"), HasSubstr("[[body]]"));
+  EXPECT_EQ(ask(with({"-o", "path.html", "-q"})).code, 0);
+  EXPECT_THAT(folder_.read("path.html"), HasSubstr("first contact, t = 0.084722"));
+
+  const Json in_space = answer("path", "semi_axes=1,1,1", "semi_axes=1,1,1 position=3,0,0");
+  EXPECT_EQ(in_space["first_contact"], nullptr);
+  EXPECT_FALSE(in_space.contains("psi"));
+
+  expect_refusal(ask(with({"-o", "path.txt"})), 2,
+                 "-o path.txt: the name must end in .csv, .h5 or .html");
+  folder_.write("other.html", "mine");
+  expect_refusal(ask(with({"-o", "other.html"})), 2, "other.html: exists and is not an HTML page");
+  expect_refusal(ask(with({"--points", "1"})), 2, "--points");
+  expect_refusal(ask(with({"--until", "0"})), 2, "--until");
+}
+
 // A file, the command line and --set lead to the same pair.
 TEST_F(PairContactTime, OfAFileIsThatOfTheCommandLine) {
   folder_.write("pair.toml",
@@ -208,6 +252,8 @@ TEST_F(Pair, TouchAtTheReferenceDistances) {
       EXPECT_NEAR(found["touching_scale"], distance / of.distance, 1e-13);
       EXPECT_EQ(found["overlap"], distance < of.distance);
       EXPECT_EQ(found["gap"] < 0, distance < of.distance);
+      const bool is_negative = found["g_1"] < 0 || found["g_2"] < 0;
+      EXPECT_EQ(found["psi"] > 0 && is_negative, distance > of.distance);
     }
 }
 
@@ -433,8 +479,16 @@ TEST_F(PairRestitutionWithTable, WritesTheTable) {
     EXPECT_EQ(outcome.code, 0) << outcome.errors;
     EXPECT_EQ(outcome.output + outcome.errors, "");
   }
+  Words pages = words;
+  pages.insert(pages.end(), {"--table", "table.html", "--scaled-table", "scaled.html", "--paths",
+                             "paths.html", "-q"});
+  EXPECT_EQ(ask(pages).code, 0);
+  EXPECT_THAT(folder_.read("table.html"),
+              HasSubstr("<title>Restitution of two soft spheres</title>"));
+  EXPECT_THAT(folder_.read("scaled.html"), HasSubstr("ln c_dis = -12.47"));
+  EXPECT_THAT(folder_.read("paths.html"), HasSubstr("Collision of finite duration"));
   const Results results = read_results(folder_ / "table.h5");
-  EXPECT_THAT(results.text("impact_parameters"), HasSubstr("damping = \"100 kg/s\""));
+  EXPECT_THAT(results.text("parameters"), HasSubstr("damping = \"100 kg/s\""));
   const Table* table = results.find("restitution");
   ASSERT_TRUE(table);
   ASSERT_EQ(table->rows(), 10'000u);
@@ -479,7 +533,8 @@ TEST_F(PairRestitution, RefusesBadImpacts) {
   refuses({"--second-radius", "1 km"}, 2, "must lie between 0.0001 m and 100 m");
   refuses({"--set", "young=1 GPa"}, 2, "'dynamics.contact.young' is unknown");
   refuses({"--set", "stiffness=1 N/m"}, 2, "has a meaning only with law = \"linear_dashpot\"");
-  refuses({"--table", "table.txt"}, 2, "--table table.txt: the name must end in .h5 or .csv");
+  refuses({"--table", "table.txt"}, 2,
+          "--table table.txt: the name must end in .csv, .h5 or .html");
   refuses({"--table", "no/table.h5"}, 3, "there is no folder");
   refuses({"none.toml"}, 3, "none.toml: cannot be read");
   folder_.write("hard.toml", "[system]\nparticles = 10\n");

@@ -45,7 +45,8 @@ class Paper(PageTest):
         return base64.b64decode(self.browser.call("Page.printToPDF", printBackground=True)["data"])
 
     def test_sheets_are_full_and_nothing_is_cut(self):
-        for name, most in (("sweep.html", 12), ("run.html", 9), ("two_runs.html", 9), ("state.html", 4), ("packing.html", 4)):
+        for name, most in (("sweep.html", 12), ("run.html", 9), ("two_runs.html", 9), ("state.html", 4), ("packing.html", 4),
+                           ("pair_path.html", 2), ("impact_paths.html", 2), ("scaled_maps.html", 5)):
             with self.subTest(name):
                 self.open(name)
                 sheets = sheets_of(self.print())

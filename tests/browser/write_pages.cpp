@@ -8,6 +8,8 @@
 #include "core/special_values.h"
 #include "mc/insertion.h"
 #include "tests/support/report_example.h"
+#include "workflow/pair/impact_figures.h"
+#include "workflow/pair/path.h"
 #include "workflow/report/packing_page.h"
 #include "workflow/report/state_page.h"
 
@@ -227,6 +229,13 @@ void write_pages(const std::filesystem::path& folder) {
   write_text(folder / "packing.html", packing_page(packing(two_species())));
   write_text(folder / "one_body.html", packing_page(packing(one_body())));
   write_text(folder / "overlapping.html", packing_page(packing(overlapping())));
+  const Pair<2> ellipses{{{1, 0.5}, {{0, 0}, 0}, {{0, 0}, 0}},
+                         {{1, 0.5}, {{1, 1}, 0}, {{-1, 0}, std::numbers::pi}},
+                         std::nullopt,
+                         100};
+  write_figures(folder / "pair_path.html", path_of_pair(ellipses, 2, 1000));
+  write_figures(folder / "impact_paths.html", impact_paths(load_impact({})));
+  write_figures(folder / "scaled_maps.html", scaled_maps(ContactParameters::Law::linear_dashpot));
   ReportData large = report_example::sweep(2, 1);
   large.runs = {report_example::run(0.7, report_example::lattice(32, 200))};
   write_text(folder / "large.html", report_page(large));

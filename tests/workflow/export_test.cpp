@@ -110,7 +110,7 @@ TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
     EXPECT_THAT(outcome.errors, HasSubstr(part));
     EXPECT_EQ(outcome.output, "");
   };
-  expect({"run.h5", "--to", "pdf"}, 2, "'pdf' is none of gsd, xyz, csv, thesis, geo, vti, vtp");
+  expect({"run.h5", "--to", "pdf"}, 2, "'pdf' is none of gsd, xyz, csv, xytheta, geo, vti, vtp");
   expect({"run.h5", "--to", "xyz", "-o", "there.xyz"}, 2, "exists already");
   expect({"run.h5", "--to", "xyz", "--frames", "4"}, 2, "has 4 frame(s)");
   expect({"there.xyz", "--to", "gsd"}, 3, "is not recognised as H5MD, GSD, extended XYZ,");
@@ -252,11 +252,11 @@ TEST(ExportOfAPacking, RefusesWhatDoesNotFit) {
   EXPECT_THAT(message({"flat.h5", "--to", "csv", "--shrink", "0.5"}),
               HasSubstr("three dimensions"));
   EXPECT_THAT(message({"flat.h5", "--to", "vti"}),
-              HasSubstr("flat.h5: is two-dimensional, for which --to takes gsd, xyz, csv, thesis, "
+              HasSubstr("flat.h5: is two-dimensional, for which --to takes gsd, xyz, csv, xytheta, "
                         "but not vti\n"));
-  EXPECT_THAT(message({"run.h5", "--to", "thesis"}),
+  EXPECT_THAT(message({"run.h5", "--to", "xytheta"}),
               HasSubstr("run.h5: is three-dimensional, for which --to takes gsd, xyz, csv, geo, "
-                        "vti, vtp, but not thesis\n"));
+                        "vti, vtp, but not xytheta\n"));
   EXPECT_THAT(message({"run.h5", "--to", "pdf"}), HasSubstr("'pdf' is none of gsd, xyz, csv"));
   // What belongs to the images is not there without them.
   EXPECT_THAT(message({"run.h5", "--to", "csv", "--shrink", "0.5"}), HasSubstr("--images"));

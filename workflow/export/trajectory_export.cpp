@@ -15,8 +15,8 @@
 #include "workflow/export/gsd.h"
 #include "workflow/export/packing.h"
 #include "workflow/export/pending_folder.h"
-#include "workflow/export/thesis.h"
 #include "workflow/export/xyz.h"
+#include "workflow/export/xytheta.h"
 
 namespace vitrel {
 namespace {
@@ -90,7 +90,7 @@ template <int Dim>
 std::unique_ptr<FrameSink<Dim>> file_sink(const std::string& format, const fs::path& path,
                                           StoredMotion motion) {
   if constexpr (Dim == 2)
-    if (format == "thesis") return std::make_unique<ThesisSink>(path);
+    if (format == "xytheta") return std::make_unique<XyThetaSink>(path);
   if (format == "gsd") return std::make_unique<GsdSink<Dim>>(path, motion);
   if (format == "xyz") return std::make_unique<XyzSink<Dim>>(path, motion);
   return std::make_unique<CsvSink<Dim>>(path, motion);
@@ -151,7 +151,7 @@ std::optional<ExportedTrajectory> export_series(const TrajectoryReader& reader,
 
 const std::vector<ExportFormat>& export_formats() {
   static const std::vector<ExportFormat> formats = {
-      {"gsd", true, true},  {"xyz", true, true},  {"csv", true, true}, {"thesis", true, false},
+      {"gsd", true, true},  {"xyz", true, true},  {"csv", true, true}, {"xytheta", true, false},
       {"geo", false, true}, {"vti", false, true}, {"vtp", false, true}};
   return formats;
 }
@@ -161,7 +161,7 @@ fs::path default_output(const ExportRequest& request) {
   if (request.format == "vtp" &&
       chosen_frames(TrajectoryReader(request.input, request.known), request).size() > 1)
     return output.replace_extension() += "_vtp";
-  return output.replace_extension(request.format == "thesis" ? "dat" : request.format);
+  return output.replace_extension(request.format == "xytheta" ? "dat" : request.format);
 }
 
 namespace {

@@ -14,7 +14,7 @@ namespace vitrel {
 /// Trajectories and states are exported as
 ///
 ///     gsd, xyz, csv      the particles of every frame: gsd.h, xyz.h, csv.h
-///     thesis             in the plane, the same: thesis.h
+///     xytheta            in the plane, the same: xytheta.h
 ///     geo, vti, vtp      in space: one period with all images that meet the box, and so csv with
 ///                        `images` (packing.h). Of several frames vtp makes a folder, a ParaView
 ///                        series; the others take one frame
@@ -47,7 +47,7 @@ struct ExportedTrajectory {
   ImportReport import = {};
 };
 
-/// Beside the input: with the format as its suffix (.dat for thesis), or, of a series, the folder
+/// Beside the input: with the format as its suffix (.dat for xytheta), or, of a series, the folder
 /// `<input>_vtp`. Ignores `output`. Throws UserError and FileError.
 std::filesystem::path default_output(const ExportRequest& request);
 

@@ -83,6 +83,7 @@ std::vector<Figure> figures_of(const std::string& damping_symbol, const ScaledRa
                          .side = lattice_side});
     }
   Figure figure3 = figures.front();
+  figure3.heading = "ε_φ, elastic, over c_φ and l";
   figure3.x_symbol = "ln c_φ", figure3.y_symbol = "ln l";
   figure3.curves = {{"ln_c_phi", "ln_l", "ε_φ"}};
   figures.push_back(figure3);
@@ -148,12 +149,13 @@ Relative touching(const Impact& impact) {
 constexpr const char* path_methods[] = {"integrated", "hard", "soft"};
 
 Table empty_paths() {
-  Table table{"impact",
-              "Centres of two soft spheres that touch at t = 0, at every tenth of a seventh of the "
-              "duration of the contact (instant 7 is its end): integrated from the force, by the "
-              "instantaneous rule of hard spheres, and by the rule of soft spheres, which is exact "
-              "from the end of the contact on. Dashed: the spheres at first contact.",
-              {{"time", "s", {}, {}}, {"instant", "1", {}, {}}}};
+  Table table{
+      "impact",
+      "Centres of two soft spheres that touch at t = 0, at every tenth of a seventh of the "
+      "duration of the contact (instant 7 is its end): integrated from the force, by the "
+      "instantaneous rule of hard spheres, and by the rule of soft spheres, which turns "
+      "them at first contact and is exact from its end on. Dashed: the spheres at first contact.",
+      {{"time", "s", {}, {}}, {"instant", "1", {}, {}}}};
   for (const char* method : path_methods)
     for (const char* sphere : {"1", "2"})
       for (const char* axis : {"x", "y"})
@@ -187,7 +189,7 @@ FigurePage coefficient_maps(const Impact& impact, const RestitutionTable& table)
                             .curves = {{"impact_parameter", "relative_speed", symbol}},
                             .value = column,
                             .side = 100,
-                            .has_logarithmic_axes = true});
+                            .has_logarithmic_y = true});
   return page;
 }
 
@@ -198,12 +200,10 @@ FigurePage scaled_maps(ContactParameters::Law law) {
   const ForceForm form = form_of_law(parameters);
   const ScaledRanges ranges = ranges_of(law);
   const std::vector<ScaledPoint> points = lattice_points(ranges);
-  std::vector<Restitution> found(points.size(), {unknown, unknown, unknown, unknown});
+  std::vector<Restitution> found(points.size());
   in_parallel(points.size(), all_cores, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
-      if (const ScaledImpact impact = impact_at(points[k], form, is_relative);
-          impact.damping <= max_scaled_damping)
-        found[k] = form.integrate(impact);
+      found[k] = form.integrate(impact_at(points[k], form, is_relative));
   });
 
   const std::string damping = is_relative ? "ln c_dis/c_dis,min" : "ln c_dis";

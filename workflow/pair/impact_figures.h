@@ -18,9 +18,8 @@ FigurePage coefficient_maps(const Impact& impact, const RestitutionTable& table)
 ///     ln l̃/l̃^min = m − m^min,   m = ln l̃ − p ln(1 + (c_φ/l̃)²)   (p of the force),
 ///     ln c_dis/c_dis^min = c − c^min,   c = ln c_dis − ln l̃ + ½ ln(1 + (c_φ/l̃)²).
 ///
-/// The ranges are those of the source, for equal radii: eccentricities from 0.01 to 0.99, and its tables 1 and 2. NaN where
-/// the damping leaves nothing of the speed (max_scaled_damping). Figures 4 and 5, and last figure 3: ε_φ of elastic spheres
-/// over ln c_φ and ln l̃.
+/// The ranges are those of the source, for equal radii: eccentricities from 0.01 to 0.99, and its tables 1 and 2. Figures 4
+/// and 5, and last figure 3: ε_φ of elastic spheres over ln c_φ and ln l̃.
 FigurePage scaled_maps(ContactParameters::Law law);
 
 /// The centres of both spheres before, during and after the contact, in the frame of figure 6 of the source: they meet at

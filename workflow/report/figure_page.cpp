@@ -20,7 +20,7 @@ Json figure_data(const Figure& of) {
                {"value", of.value},
                {"firstRow", of.first_row},
                {"side", of.side},
-               {"isLogarithmic", of.has_logarithmic_axes}};
+               {"isLogarithmic", of.has_logarithmic_y}};
   for (const auto& [x, y, label] : of.curves)
     data["curves"].push_back({{"x", x}, {"y", y}, {"label", label}});
   if (of.mark) data["mark"] = {{"value", of.mark->first}, {"label", of.mark->second}};

@@ -38,7 +38,7 @@ struct Figure {
   std::string value = {};     ///< the column of the colours
   std::size_t first_row = 0;  ///< x runs faster than y
   std::size_t side = 0;
-  bool has_logarithmic_axes = false;
+  bool has_logarithmic_y = false;
 };
 
 struct FigurePage {

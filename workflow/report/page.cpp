@@ -74,8 +74,8 @@ void require_place_of_page(const std::filesystem::path& output) {
   if (std::filesystem::exists(output) && !is_page(output))
     throw UserError(
         output.string() +
-        ": exists and is not an HTML page; vitrel report overwrites nothing else; choose "
-        "another output, or delete it");
+        ": exists and is not an HTML page, which alone a page may replace; choose another output, "
+        "or delete it");
 }
 
 }  // namespace vitrel

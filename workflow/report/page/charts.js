@@ -389,7 +389,7 @@ class Chart {
       button.addEventListener('click', () => download(this.file.replace('.csv', '.' + format.toLowerCase()), address()));
       row.append(button);
     };
-    add('CSV', 'the curves of', () => textAddress('text/csv', csvText(this)));
+    add('CSV', 'the curves of', () => textAddress('text/csv', this.csv()));
     add('SVG', 'the chart', () => textAddress('image/svg+xml', this.svg()));
     add('PNG', 'the chart', () => this.png());
     row.append(...['logX', 'logY'].filter((scale) => this.canBeLogarithmic(scale)).map((scale) => this.scaleSwitch(scale)));
@@ -412,6 +412,8 @@ class Chart {
     });
     return button;
   }
+
+  csv() { return csvText(this); }
 
   /** With titles and legend, which on the page stand around the plot. */
   svg() {

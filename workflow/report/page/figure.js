@@ -7,21 +7,28 @@ const extent = (values) => [Math.min(...values), Math.max(...values)];
 /** Around zero, where both signs meet, whatever the values are far above. */
 const rangeAboutZero = (plot, low, high) => low < 0 && high > -5 * low ? [1.2 * low, -5 * low] : linearRange(plot, low, high);
 
-function drawDashed(ctx, draw) {
-  ctx.strokeStyle = cssColour('--quiet');
-  ctx.lineWidth = devicePixelRatio;
-  ctx.setLineDash([4 * devicePixelRatio, 4 * devicePixelRatio]);
-  ctx.beginPath();
-  draw();
-  ctx.stroke();
-  ctx.setLineDash([]);
+/** These columns, from a row on. */
+function columnsText(names, first = 0, count = Infinity) {
+  const rows = names.map((name) => columns[name].value.slice(first, first + count));
+  return [names, ...rows[0].map((_, i) => rows.map((row) => row[i] ?? 'nan'))].map((row) => row.join(',') + '\n').join('');
+}
+
+/** Whose curves are not drawn by uPlot. */
+class DrawnChart extends Chart {
+  options(size) {
+    const options = super.options(size);
+    options.series = options.series.map((series) => ({ ...series, paths: () => null }));
+    return options;
+  }
 }
 
 /** Lines through points in their order, with numbered marks, on equal scales. */
-class PathsChart extends Chart {
+class PathsChart extends DrawnChart {
+  csv() { return columnsText(['time', ...this.columnNames]); }
+
   /** All that is drawn: [low, high] of x and of y. */
   get window() {
-    const { curves } = this.variant, room = 0.04;
+    const { curves } = this.variant, room = 0.06;
     const along = (of, at) => extent([...curves.flatMap(of), ...this.outlines.flatMap((disk) => [at(disk) - disk.radius, at(disk) + disk.radius])])
       .map((end, k, ends) => end + (2 * k - 1) * room * (ends[1] - ends[0]));
     return [along(({ x }) => x, ({ x }) => x), along(({ value }) => value, ({ y }) => y)];
@@ -39,7 +46,6 @@ class PathsChart extends Chart {
     const options = super.options(size), [x, y] = this.window;
     options.scales = { x: { time: false, range: x }, y: { range: y } };
     options.axes[1].size = this.besides - 20;
-    options.series = options.series.map((series) => ({ ...series, paths: () => null }));
     options.hooks.drawAxes = [(plot) => this.drawPaths(plot)];
     return options;
   }
@@ -47,11 +53,17 @@ class PathsChart extends Chart {
   drawPaths(plot) {
     const place = (x, y) => [plot.valToPos(x, 'x', true), plot.valToPos(y, 'y', true)];
     insideFrame(plot, (ctx) => {
-      for (const { x, y, radius } of this.outlines) drawDashed(ctx, () => {
+      ctx.strokeStyle = cssColour('--quiet');
+      ctx.lineWidth = devicePixelRatio;
+      ctx.setLineDash([4 * devicePixelRatio, 4 * devicePixelRatio]);
+      ctx.beginPath();
+      for (const { x, y, radius } of this.outlines) {
         const [right, middle] = place(x + radius, y), [centre] = place(x, y);
         ctx.moveTo(right, middle);
         ctx.arc(centre, middle, right - centre, 0, 2 * Math.PI);
-      });
+      }
+      ctx.stroke();
+      ctx.setLineDash([]);
       this.variant.curves.filter(({ id }) => !this.hidden.has(id)).forEach((curve) => this.drawPath(ctx, curve, place));
     });
   }
@@ -76,7 +88,9 @@ class PathsChart extends Chart {
 }
 
 /** Colours of the values between the points of a lattice, with their key at the right. */
-class ColourMap extends Chart {
+class ColourMap extends DrawnChart {
+  csv() { return columnsText(this.columnNames, this.firstRow, this.side ** 2); }
+
   sizeFor(width) { return { width, height: Math.round(0.8 * width) }; }
 
   get ends() { return this.finite ??= extent(this.colours.filter(isNumber)); }
@@ -88,7 +102,7 @@ class ColourMap extends Chart {
 
   options(size) {
     const options = super.options(size), { x, value } = this.variant.curves[0];
-    options.padding = [10, 66, 0, 0];
+    options.padding = [10, 84, 0, 0];
     options.scales.x.range = extent(x);
     options.scales.y.range = extent(value);
     options.cursor.points = { show: false };
@@ -124,8 +138,12 @@ class ColourMap extends Chart {
     ctx.textAlign = 'left';
     ctx.textBaseline = 'middle';
     ctx.fillStyle = cssColour('--quiet');
-    for (const share of high > low ? [0, 0.5, 1] : [0.5])
-      ctx.fillText(shortNumber(low + share * (high - low)), left + 16 * ratio, at(share) + (share - 0.5) * 10 * ratio);
+    const largest = Math.max(-low, high), digits = Math.max(2, 1 + Math.ceil(Math.log10(largest / (high - low))));
+    for (const share of high > low ? [0, 0.5, 1] : [0.5]) {
+      const value = low + share * (high - low);
+      const text = Math.abs(value) < 1e-3 * largest ? '0' : shortNumber(value, high > low ? digits : 6);
+      ctx.fillText(text, left + 16 * ratio, at(share) + (share - 0.5) * 10 * ratio);
+    }
   }
 
   /** What is nearest to the cursor. */
@@ -146,14 +164,15 @@ function curvesOf({ curves, kind, firstRow, side }) {
 }
 
 for (const figure of pageData.figures) {
-  const host = element('div', { class: 'chart' }), curves = curvesOf(figure), { mark, showsZero, isLogarithmic, firstRow, side } = figure;
+  const host = element('div', { class: 'chart' }), curves = curvesOf(figure), { mark, showsZero, firstRow, side, value } = figure;
   byId('figures').append(host);
   const [{ x, y }] = figure.curves;
   const variant = { symbol: figure.symbol, unit: unitOf(columns[y]), curves, levels: showsZero ? [0] : [],
                     uprights: mark ? [{ ...mark, colour: () => curveColour(1) }] : [] };
   const description = { heading: figure.heading, xSymbol: figure.xSymbol, xUnit: unitOf(columns[x]), file: pageData.file,
-                        variants: [variant], range: showsZero ? rangeAboutZero : undefined, outlines: figure.outlines, side,
-                        logX: isLogarithmic, logY: isLogarithmic, colours: columns[figure.value]?.value.slice(firstRow, firstRow + side * side) };
+                        variants: [variant], range: showsZero ? rangeAboutZero : undefined, outlines: figure.outlines, firstRow, side,
+                        logY: figure.isLogarithmic, colours: columns[value]?.value.slice(firstRow, firstRow + side * side),
+                        columnNames: [...figure.curves.flatMap((curve) => [curve.x, curve.y]), ...value ? [value] : []] };
   new ({ curves: Chart, paths: PathsChart, map: ColourMap }[figure.kind])(host, description);
 }
 recolour();

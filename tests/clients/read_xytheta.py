@@ -3,7 +3,7 @@ import numpy as np
 
 from exported import expect, export
 
-right, path = export("thesis")
+right, path = export("xytheta")
 out = np.loadtxt(path, ndmin=2)
 
 

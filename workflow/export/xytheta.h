@@ -6,8 +6,8 @@
 
 namespace vitrel {
 
-/// A trajectory in the plane as plain text for the program of the thesis that animates it (appendix B.3): a line per
-/// frame and no header line,
+/// A trajectory in the plane as plain text, as the program that animates it in appendix B.3 of thesis-elliptic-disks reads
+/// it: a line per frame and no header line,
 ///
 ///     t x₁ y₁ θ₁ x₂ y₂ θ₂ …
 ///
@@ -19,9 +19,9 @@ namespace vitrel {
 ///
 /// The text has neither the box nor the shapes. The program computes them from NU, AR and PF, for equal particles with
 /// a b = 1 in a square box.
-class ThesisSink final : public FrameSink<2> {
+class XyThetaSink final : public FrameSink<2> {
  public:
-  explicit ThesisSink(const std::filesystem::path& path) : file_(path) {}
+  explicit XyThetaSink(const std::filesystem::path& path) : file_(path) {}
   void write(const StoredFrame<2>& frame) override;
   void close() override { file_.close(); }
 

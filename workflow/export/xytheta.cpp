@@ -1,4 +1,4 @@
-#include "workflow/export/thesis.h"
+#include "workflow/export/xytheta.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-void ThesisSink::write(const StoredFrame<2>& frame) {
+void XyThetaSink::write(const StoredFrame<2>& frame) {
   const Configuration2& configuration = frame.configuration;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
