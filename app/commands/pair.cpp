@@ -14,9 +14,9 @@
 #include "core/io/provenance.h"
 #include "edmd/soft/restitution_table.h"
 #include "workflow/analyze/analyze.h"
-#include "workflow/pair/impact_figures.h"
-#include "workflow/pair/path.h"
+#include "workflow/report/impact_figures.h"
 #include "workflow/report/page.h"
+#include "workflow/report/path_figures.h"
 
 namespace vitrel {
 namespace {

@@ -116,7 +116,8 @@ TEST_F(HabitsTest, HelpAndVersionAreCommandsAndOptions) {
   EXPECT_THAT(commands(),
               IsSupersetOf({"prepare", "run", "check", "analyze", "sweep", "report", "export",
                             "pair", "params", "picture", "completion", "man", "help", "version"}));
-  EXPECT_THAT(commands({"pair"}), ElementsAre("overlap", "gap", "contact-time", "path", "restitution"));
+  EXPECT_THAT(commands({"pair"}),
+              ElementsAre("overlap", "gap", "contact-time", "path", "restitution"));
   for (const Words& command : all_commands()) {
     const std::string help = help_of(command);
     EXPECT_THAT(help, HasSubstr("Usage: " + full_name(command)));

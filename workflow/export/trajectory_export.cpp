@@ -15,8 +15,8 @@
 #include "workflow/export/gsd.h"
 #include "workflow/export/packing.h"
 #include "workflow/export/pending_folder.h"
-#include "workflow/export/xyz.h"
 #include "workflow/export/xytheta.h"
+#include "workflow/export/xyz.h"
 
 namespace vitrel {
 namespace {

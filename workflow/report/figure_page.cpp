@@ -52,6 +52,18 @@ std::string figure_page(const FigurePage& page) {
 
 }  // namespace
 
+Table table_of_rows(const std::string& name, const std::string& description,
+                    const std::vector<std::pair<std::string, std::string>>& columns,
+                    const std::vector<std::vector<double>>& rows) {
+  Table table{name, description, {}};
+  for (const auto& [column, unit] : columns) {
+    const std::size_t c = table.columns.size();
+    table.columns.push_back({column, unit, {}, {}});
+    for (const std::vector<double>& row : rows) table.columns[c].value.push_back(row[c]);
+  }
+  return table;
+}
+
 void write_figures(const std::filesystem::path& path, const FigurePage& page) {
   if (path.extension() == ".csv") return write_csv(path, page.results.tables.front());
   if (path.extension() == ".html") return write_text(path, figure_page(page));

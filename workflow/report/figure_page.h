@@ -49,6 +49,11 @@ struct FigurePage {
   std::string units;       ///< a sentence
 };
 
+/// `columns`: names and units; as many numbers in every row.
+Table table_of_rows(const std::string& name, const std::string& description,
+                    const std::vector<std::pair<std::string, std::string>>& columns,
+                    const std::vector<std::vector<double>>& rows);
+
 /// By the ending of the name: .csv, the first table; .h5, all results (analysis/results.h); .html, the page. Throws
 /// FileError.
 void write_figures(const std::filesystem::path& path, const FigurePage& page);

@@ -27,6 +27,7 @@ class SvgPath {
 }
 
 let clipPaths = 0;
+const measuring = document.createElement('canvas').getContext('2d');
 
 /** A drawing context of this size in pixels; `text()` is the SVG of what it was given to draw. */
 class SvgContext {
@@ -98,9 +99,8 @@ class SvgContext {
   strokeText(text, x, y) { this.write(text, x, y, this.stroked()); }
 
   measureText(text) {
-    const context = document.createElement('canvas').getContext('2d');
-    context.font = this.font;
-    return context.measureText(text);
+    measuring.font = this.font;
+    return measuring.measureText(text);
   }
 
   text(scale) {

@@ -1,12 +1,12 @@
-#include "workflow/pair/path.h"
+#include "workflow/report/path_figures.h"
 
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
-#include <type_traits>
 
 #include "core/geometry/free_flight.h"
 #include "core/parallel.h"
@@ -15,34 +15,32 @@ namespace vitrel {
 namespace {
 
 using Row = std::vector<double>;
+using Columns = std::vector<std::pair<std::string, std::string>>;
 
-void add_own_values(const Pair<2>& pair, double time, const PairGap<2>& at, Row& row) {
+Columns own_columns(const Pair<2>&) {
+  return {{"d", "1"}, {"psi", "1"}, {"g_1", "1"}, {"g_2", "1"}};
+}
+Columns own_columns(const Pair<3>&) {
+  return {{"eta_1", "1"}, {"eta_2", "1"}, {"eta_3", "1"}, {"eta_4", "1"}, {"eta_5", "1"}};
+}
+
+Row own_values(const Pair<2>& pair, double time, const PairGap<2>& at) {
   const auto& [psi, g1, g2] = at.criterion;
-  row.insert(row.end(), {unit_circle_distance(pair, time, at.image), psi, g1, g2});
+  return {unit_circle_distance(pair, time, at.image), psi, g1, g2};
 }
-
-void add_own_values(const Pair<3>&, double, const PairGap<3>& at, Row& row) {
+Row own_values(const Pair<3>&, double, const PairGap<3>& at) {
   const EllipsoidEta<double>& eta = at.criterion;
-  row.insert(row.end(), {eta.eta1, eta.eta2, eta.eta3, eta.eta4, eta.eta5});
+  return {eta.eta1, eta.eta2, eta.eta3, eta.eta4, eta.eta5};
 }
 
-Table empty_table(int dimension) {
-  std::vector<Column> columns = {
-      {"time", "time", {}, {}}, {"gap", "length", {}, {}}, {"touching_scale", "1", {}, {}}};
-  const std::vector<std::string> own =
-      dimension == 2 ? std::vector<std::string>{"d", "psi", "g_1", "g_2"}
-                     : std::vector<std::string>{"eta_1", "eta_2", "eta_3", "eta_4", "eta_5"};
-  for (const std::string& name : own) columns.push_back({name, "1", {}, {}});
-  return {"path",
-          std::string("Two bodies in free flight: the gap, of an overlap minus its depth, and the "
-                      "factor of both sizes at which they touch, √F of Perram and Wertheim; ") +
-              (dimension == 2
-                   ? "d, the distance of the second ellipse from the first, where that is made the "
-                     "unit circle; and the contact function Ψ of Vieillard-Baron with G₁ and G₂ "
-                     "(disjoint if Ψ > 0, and G₁ or G₂ is negative)."
-                   : "and η₁ … η₅ of Ghossein and Lévesque."),
-          columns};
-}
+constexpr const char* common_text =
+    "Two bodies in free flight: the gap, of an overlap minus its depth, and the factor of both "
+    "sizes at which they touch, √F of Perram and Wertheim; ";
+constexpr const char* plane_text =
+    "d, the distance of the second ellipse from the first, where that is made the unit circle; and "
+    "the contact function Ψ of Vieillard-Baron with G₁ and G₂ (disjoint if Ψ > 0, and G₁ or G₂ is "
+    "negative).";
+constexpr const char* space_text = "and η₁ … η₅ of Ghossein and Lévesque.";
 
 Figure curves(const std::string& heading, const std::string& symbol,
               const std::vector<std::pair<std::string, std::string>>& columns) {
@@ -109,12 +107,13 @@ FigurePage path_of_pair(const Pair<Dim>& pair, double end, int points) {
       const double time = end * static_cast<double>(k) / static_cast<double>(count - 1);
       const PairGap<Dim> at = gap_at(pair, time);
       rows[k] = {time, at.gap, at.touching_scale};
-      add_own_values(pair, time, at, rows[k]);
+      std::ranges::copy(own_values(pair, time, at), std::back_inserter(rows[k]));
     }
   });
-  Table path = empty_table(Dim);
-  for (const Row& row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) path.columns[k].value.push_back(row[k]);
+  Columns columns = {{"time", "time"}, {"gap", "length"}, {"touching_scale", "1"}};
+  std::ranges::copy(own_columns(pair), std::back_inserter(columns));
+  const Table path = table_of_rows(
+      "path", std::string(common_text) + (Dim == 2 ? plane_text : space_text), columns, rows);
 
   Pair<Dim> until_end = pair;
   until_end.horizon = end;
