@@ -17,6 +17,7 @@
 #include "workflow/report/impact_figures.h"
 #include "workflow/report/page.h"
 #include "workflow/report/path_figures.h"
+#include "workflow/rules.h"
 
 namespace vitrel {
 namespace {
@@ -216,9 +217,11 @@ int pair_contact_time_command(const PairOptions& options) {
 
 int pair_path_command(const PairOptions& options) {
   require_figure_file("-o", options.output, options.source.file);
-  const PairParameters parameters = load_pair(options.source);
+  PairSource source = options.source;
+  if (options.until) source.horizon = show(*options.until);
+  const PairParameters parameters = load_pair(source);
   return print_answer(options, parameters, [&](const auto& pair) {
-    const double end = options.until.value_or(usual_end(pair));
+    const double end = options.until ? pair.horizon : usual_end(pair);
     const FigurePage page = path_of_pair(pair, end, options.points);
     if (!options.output.empty())
       write_page(options.output, page, pair_text(parameters), options.command_line);

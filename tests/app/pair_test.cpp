@@ -214,6 +214,8 @@ TEST_F(PairContactTime, ThePathIsATableOrAPage) {
   expect_refusal(ask(with({"-o", "other.html"})), 2, "other.html: exists and is not an HTML page");
   expect_refusal(ask(with({"--points", "1"})), 2, "--points");
   expect_refusal(ask(with({"--until", "0"})), 2, "--until");
+  expect_refusal(ask(with({"--until", "1e9", "--box", "5,5"})), 2,
+                 "more than 1e+06 times the shortest side");
 }
 
 // A file, the command line and --set lead to the same pair.

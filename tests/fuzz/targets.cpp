@@ -123,7 +123,8 @@ Target pairs() {
           {pair},
           {{"pair", "gap", "pair.toml"},
            {"pair", "contact-time", "pair.toml"},
-           {"pair", "overlap", "pair.toml"}}};
+           {"pair", "overlap", "pair.toml"},
+           {"pair", "path", "pair.toml", "--points", "3"}}};
 }
 
 std::vector<std::vector<std::string>> commands_for(const std::string& file) {

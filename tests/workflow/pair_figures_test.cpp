@@ -148,6 +148,8 @@ TEST(PathOfPair, WithoutAContactHasNoMark) {
   EXPECT_EQ(usual_end(pair), 2);  // a turn
   pair.two.motion.angular_velocity = 0;
   EXPECT_EQ(usual_end(pair), 1);
+  pair.two.motion.velocity = {0, -1e-200};  // whose square vanishes
+  EXPECT_EQ(usual_end(pair), 1);
 }
 
 // In space η₁ > 0 as long as they are apart.

@@ -87,7 +87,7 @@ double usual_end(const Pair<Dim>& pair) {
   const double half_chord =
       std::sqrt(std::max(0.0, touch * touch - (d + closest * v).squaredNorm())) / speed;
   if (half_chord > 0 && closest + half_chord > 0) return closest + half_chord;
-  if (closest > 0) return 2 * closest;
+  if (closest > 0 && std::isfinite(closest)) return 2 * closest;
   const auto turns = [](const auto& motion) {
     if constexpr (Dim == 2)
       return std::abs(motion.angular_velocity);
