@@ -15,6 +15,8 @@ function columnsText(names, first = 0, count = Infinity) {
 
 /** Whose curves are not drawn by uPlot. */
 class DrawnChart extends Chart {
+  canBeLogarithmic() { return false; }
+
   options(size) {
     const options = super.options(size);
     options.series = options.series.map((series) => ({ ...series, paths: () => null }));
