@@ -225,12 +225,6 @@ function runsChart(runs) {
 const line = (label, x, value, look = {}) => ({ label, id: label, x, value, colour: () => curveColour(0), ...look });
 const upright = (value, label) => ({ value, label, colour: () => curveColour(6) });
 
-function sceneCharts(curves) {
-  const touches = [upright(curves.first_contact, `t = ${curves.first_contact.toFixed(4)}`), upright(1, 'again, t = 1')];
-  for (const [heading, symbol, key] of [['Distance', 'd(t)', 'distance'], ['Contact function', 'Ψ(t)', 'psi']])
-    addChart('scene-charts', { heading, symbol, xSymbol: 't', levels: [0], uprights: touches, curves: [line(symbol, curves.time, curves[key])] });
-}
-
 function passingChart({ contact, eta1: { curve, scan, scan_steps: steps } }) {
   addChart('passing-chart', { heading: 'η₁ about the overlap', symbol: 'η₁', xSymbol: 't', levels: [0],
     uprights: [upright(contact, `contact, t = ${contact.toFixed(4)}`)],
@@ -290,10 +284,7 @@ if (byId('glance')) {
 }
 if (byId('speed')) ['median_error', 'largest_error'].forEach((which) => speedChart(data.tolerances, which));
 if (byId('failures')) byId('failures').append(...data.failures.flatMap(failingPair));
-if (byId('scene')) {
-  sceneCharts(data.scene_curves);
-  byId('scene').append(sceneTable(data.scene));
-}
+if (byId('scene')) byId('scene').append(sceneTable(data.scene));
 if (byId('passing')) {
   passingChart(data.passing_pair);
   byId('passing').append(passingTable(data.passing_pair));

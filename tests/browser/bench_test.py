@@ -31,7 +31,7 @@ class BenchPage(unittest.TestCase):
     def test_collision_time(self):
         for _ in self.page("collision-time", "collision-time", *SHORT, "--duration", "0.1"):
             self.assertEqual(self.count("section"), 8)
-            self.assertEqual(self.count(".chart canvas"), 6)
+            self.assertEqual(self.count(".chart canvas"), 4)
             self.assertGreater(self.count("#failures svg ellipse"), 3)
             self.assertEqual(self.count("#scene tbody tr"), 12)
             first = "document.querySelector('#stability tbody tr').textContent"
