@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
+#include <sstream>
 
 #include "analysis/observables/dynamics_tables.h"
 #include "analysis/observables/energy_tables.h"
@@ -57,8 +57,8 @@ TableChoice::TableChoice(std::string_view names) {
       for (const std::string& name : observable.also) table_of[name] = observable.table;
     }
   for (const auto& [name, table] : table_of) known.push_back(name);
-  for (const auto part : std::views::split(names, ',')) {
-    std::string name(part.begin(), part.end());
+  std::istringstream list{std::string(names)};
+  for (std::string name; std::getline(list, name, ',');) {
     std::erase(name, ' ');
     if (!table_of.contains(name))
       throw UserError(

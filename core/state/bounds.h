@@ -29,6 +29,7 @@ inline constexpr Bounds length{1e-20, 1e20};
 inline constexpr Bounds mass{1e-40, 1e40};
 inline constexpr Bounds positive{1e-20, 1e20};  ///< speeds, pressures, moduli …
 inline constexpr Bounds not_negative{0, 1e20};
+inline constexpr Bounds any{-1e20, 1e20};
 inline constexpr Bounds time = positive, time_or_none = not_negative;
 inline constexpr Bounds at_least_one{1};
 inline constexpr Bounds share{0, 1};

@@ -126,13 +126,18 @@ void describe_published(PublishedResult& p, FieldVisitor& visit) {
               p.quantity);
   visit.field({"values", "as the quantity",
                "One for each step of [sweep.together], or without that, for each value of the "
-               "first key of [sweep.grid]."},
+               "first key of [sweep.grid].",
+               bounds::any},
               p.values);
-  visit.optional({"exponent", "",
-                  "Instead of values: the power of the abscissa with which the quantity grows."},
+  visit.optional({"exponent",
+                  "",
+                  "Instead of values: the power of the abscissa with which the quantity grows.",
+                  {-100, 100}},
                  p.exponent, 1.5);
-  visit.optional({"from", "as the abscissa", "The exponent holds from here."}, p.from, 1.0);
-  visit.optional({"to", "as the abscissa", "The exponent holds up to here."}, p.to, 10.0);
+  visit.optional({"from", "as the abscissa", "The exponent holds from here.", bounds::any}, p.from,
+                 1.0);
+  visit.optional({"to", "as the abscissa", "The exponent holds up to here.", bounds::any}, p.to,
+                 10.0);
 }
 
 std::size_t SweepParameters::first_axis_steps() const {

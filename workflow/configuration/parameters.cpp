@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 
 #include "edmd/sampling.h"
 #include "workflow/configuration/hard_contacts.h"
@@ -72,7 +71,8 @@ bool places_particles(const TomlNode& stage) {
 
 /// Whether the last of the stages that change the density ends at a pressure.
 bool end_at_a_pressure(const TomlNode::Array& stages) {
-  for (const TomlNode& stage : std::views::reverse(stages)) {
+  for (auto found = stages.rbegin(); found != stages.rend(); ++found) {
+    const TomlNode& stage = *found;
     const auto has = [&](const char* key) { return stage.find(key) != nullptr; };
     if (has("reduced_pressure")) return true;
     if (has("packing_fraction")) return false;
