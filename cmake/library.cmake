@@ -36,15 +36,18 @@ set(VITREL_PRECOMPILED
 vitrel_precompiled(vitrel_precompiled HEADERS ${VITREL_PRECOMPILED})
 vitrel_precompiled(vitrel_cold_precompiled COLD HEADERS ${VITREL_PRECOMPILED})
 
-# vitrel_library(<name> SOURCES … [COLD …] HEADERS … LINK … [PRIVATE_LINK …]): one static library per folder
-# of the architecture with its headers, each of which must compile alone (scripts/check_headers). COLD are
-# further sources. Includes read "core/…", from the project's root.
+# vitrel_library(<name> SOURCES … [COLD …] [PRIVATE_HEADERS …] LINK … [PRIVATE_LINK …]): one static library per folder
+# of the architecture with all headers of the folder, each of which must compile alone (scripts/check_headers). COLD are
+# further sources. PRIVATE_HEADERS are not installed: they include what users of the library need not have. Includes
+# read "core/…", from the project's root.
 function(vitrel_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;COLD;HEADERS;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;COLD;PRIVATE_HEADERS;LINK;PRIVATE_LINK" ${ARGN})
+  file(GLOB_RECURSE headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS *.h)
+  list(REMOVE_ITEM headers ${ARG_PRIVATE_HEADERS})
   set(target vitrel_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(vitrel::${name} ALIAS ${target})
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
   target_link_libraries(${target} PUBLIC vitrel::options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
   vitrel_private_options(${target})
