@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "core/neighbors/large_vector.h"
 #include "core/neighbors/prefetch.h"

@@ -1,7 +1,6 @@
 #include "edmd/engine.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/elementary.h"
 #include "core/error.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/neighbors/large_vector.h"
 #include "core/neighbors/prefetch.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "core/state/configuration.h"
 #include "core/state/stage.h"

@@ -1,7 +1,6 @@
 #include "mc/compression.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <span>
 #include <string>

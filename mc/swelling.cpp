@@ -1,7 +1,6 @@
 #include "mc/swelling.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <string>
 #include <vector>

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/contact/ellipse_overlap_batch.h"
-#include "core/contact/ellipse_pair.h"
 #include "core/contact/ellipsoid_overlap_batch.h"
 #include "core/geometry/free_flight.h"
 #include "core/state/configuration.h"

@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "analysis/dynamics/time_axis.h"
-#include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
+#include "core/state/figure_axis.h"
 
 namespace vitrel {
 

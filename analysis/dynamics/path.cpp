@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "analysis/structure/orientation_tensor.h"
+#include "core/state/figure_axis.h"
 
 namespace vitrel {
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 
 #include "core/state/configuration.h"
 #include "core/state/figure_axis.h"

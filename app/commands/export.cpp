@@ -5,7 +5,6 @@
 #include "app/commands/common.h"
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
-#include "core/error.h"
 #include "core/io/json.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/export/trajectory_export.h"

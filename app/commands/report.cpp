@@ -7,7 +7,6 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/stop_signals.h"
-#include "core/io/json.h"
 #include "core/io/text_file.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/report/page.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "core/contact/first_contact.h"
 #include "core/contact/first_root.h"
 #include "core/contact/flight_record.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include "core/geometry/ellipsoid.h"
 
 /// @file

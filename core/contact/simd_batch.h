@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstring>
-#include <limits>
 
 #include "core/contact/ellipse_pair.h"
 #include "core/geometry/asymmetric_top.h"

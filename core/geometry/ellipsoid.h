@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <numbers>
 
 #include "core/geometry/body.h"

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 #include "core/elementary.h"
@@ -16,7 +15,6 @@
 #include "core/state/bounds.h"
 #include "core/state/species.h"
 #include "core/tolerances.h"
-#include "core/whole_number.h"
 
 namespace vitrel {
 namespace fs = std::filesystem;

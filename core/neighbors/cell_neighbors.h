@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "core/elementary.h"
-#include "core/geometry/pose.h"
 #include "core/neighbors/large_vector.h"
 #include "core/neighbors/list_pool.h"
 #include "core/neighbors/neighbor.h"

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "core/neighbors/large_vector.h"
 #include "core/neighbors/prefetch.h"

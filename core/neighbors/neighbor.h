@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "core/contact/contact_screen.h"
-#include "core/geometry/periodic_box.h"
 
 namespace vitrel {
 

@@ -4,7 +4,6 @@
 #include "analysis/observables/observable.h"
 #include "analysis/statistics/blocking.h"
 #include "analysis/trajectory.h"
-#include "core/io/json.h"
 #include "core/io/text_file.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"

@@ -2,7 +2,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/io/json.h"
 #include "core/state/observer.h"
 #include "core/state/stage.h"
 #include "python/bindings/arrays.h"

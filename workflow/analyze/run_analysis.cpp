@@ -1,7 +1,6 @@
 #include "workflow/analyze/run_analysis.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "analysis/dynamics/four_point.h"
 #include "analysis/dynamics/time_axis.h"
@@ -10,7 +9,6 @@
 #include "analysis/structure/orientation_tensor.h"
 #include "core/special_values.h"
 #include "workflow/configuration/hard_contacts.h"
-#include "workflow/configuration/start_state.h"
 
 namespace vitrel {
 namespace {

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/io/foreign/foreign_formats.h"
 #include "workflow/configuration/sections.h"
 #include "workflow/rules.h"

@@ -1,6 +1,5 @@
 #include "workflow/report/report_page.h"
 #include "core/io/json.h"
-#include "core/io/number_text.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "core/io/foreign/foreign_frame.h"
 #include "core/state/configuration.h"

@@ -10,7 +10,6 @@
 #include "core/state/check.h"
 #include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/soft_particles.h"
-#include "workflow/configuration/start_state.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/brownian_step.h"
 #include "workflow/run/correlations_file.h"

@@ -1,7 +1,6 @@
 #include "workflow/stages/grow_stage.h"
 
 #include "edmd/growth.h"
-#include "mc/options.h"
 #include "workflow/stages/growth_goal.h"
 #include "workflow/stages/stage_fields.h"
 #include "workflow/stages/stage_record.h"

@@ -1,7 +1,6 @@
 #include "workflow/stages/hybrid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/elementary.h"

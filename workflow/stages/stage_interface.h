@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "core/state/stage.h"
 #include "workflow/rules.h"

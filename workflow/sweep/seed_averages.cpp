@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "analysis/statistics/blocking.h"
 #include "core/io/number_text.h"

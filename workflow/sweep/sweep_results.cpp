@@ -13,7 +13,6 @@
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "core/io/json.h"
-#include "core/io/text_file.h"
 #include "core/special_values.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/io/number_text.h"
-#include "core/io/text_file.h"
 #include "workflow/sweep/job_folder.h"
 #include "workflow/sweep/seed_averages.h"
 #include "workflow/sweep/text_table.h"

@@ -1,13 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
-#include "core/error.h"
 #include "core/io/box_crossings.h"
 #include "core/io/foreign/foreign_formats.h"
 #include "core/io/foreign/gsd_reader.h"
