@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
 
-#include "core/contact/perram_wertheim.h"
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/random/stream.h"
@@ -213,19 +211,5 @@ StageReport place_on_lattice(Configuration<Dim>& configuration, const LatticeOpt
 
 template StageReport place_on_lattice(Configuration2&, const LatticeOptions&, std::uint64_t);
 template StageReport place_on_lattice(Configuration3&, const LatticeOptions&, std::uint64_t);
-
-double densest_square_lattice(const Ellipse& shape, double angle) {
-  // The lattice constant at which no neighbour along (i, j) touches.
-  double constant = 0;
-  const int far = static_cast<int>(std::ceil(shape.aspect_ratio())) + 1;
-  for (int x = 0; x <= far; ++x)
-    for (int y = -far; y <= far; ++y) {
-      if (x == 0 && y <= 0) continue;
-      const Vec2 site(x, y);
-      constant =
-          std::max(constant, contact_distance(shape, angle, shape, angle, site) / norm(site));
-    }
-  return shape.volume() / (constant * constant);
-}
 
 }  // namespace vitrel

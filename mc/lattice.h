@@ -31,8 +31,4 @@ constexpr bool has_dimension(Arrangement arrangement, int dimension) {
   return (arrangement <= Arrangement::triangular) == (dimension == 2);
 }
 
-/// The largest packing fraction at which equal ellipses at `angle` fit a square lattice without
-/// overlap; κ = √3 at π/4 reaches π/(2√3).
-double densest_square_lattice(const Ellipse& shape, double angle);
-
 }  // namespace vitrel

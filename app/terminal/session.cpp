@@ -10,8 +10,6 @@
 
 namespace vitrel {
 
-namespace fs = std::filesystem;
-
 Session::Session(bool quiet, double wall_time, StopDeadline deadline)
     : display_(ProgressDisplay::mode(quiet)) {
   catch_stop_signals(wall_time, deadline);
@@ -25,14 +23,6 @@ Session::Session(bool quiet, double wall_time, StopDeadline deadline)
 
 double Session::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
-void require_output_folder(const fs::path& output) {
-  fs::path there = fs::absolute(output);
-  while (!fs::exists(there)) there = there.parent_path();
-  if (!fs::is_directory(there))
-    throw FileError(fmt::format("{}: the folder cannot be made: {} is a file", output.string(),
-                                there.string()));
 }
 
 void print_text(std::string_view text) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -36,9 +35,6 @@ class Session {
   RunControl control_;
   std::function<void(const std::string&)> say_;
 };
-
-/// FileError if the folder is not there and cannot be made, as something on its path is a file.
-void require_output_folder(const std::filesystem::path& output);
 
 /// To standard output, at once; throws FileError if it cannot be written. Nothing else writes there.
 void print_text(std::string_view text);

@@ -6,11 +6,24 @@
 
 #include "app/terminal/exit_codes.h"
 #include "bench/pages/page.h"
+#include "core/error.h"
 #include "core/io/json.h"
 #include "core/io/provenance.h"
 #include "core/io/text_file.h"
 
 namespace vitrel::bench {
+namespace {
+
+/// FileError if the folder is not there and cannot be made, as something on its path is a file.
+void require_output_folder(const std::filesystem::path& output) {
+  std::filesystem::path there = std::filesystem::absolute(output);
+  while (!std::filesystem::exists(there)) there = there.parent_path();
+  if (!std::filesystem::is_directory(there))
+    throw FileError(fmt::format("{}: the folder cannot be made: {} is a file", output.string(),
+                                there.string()));
+}
+
+}  // namespace
 
 Report::Report(const OutputOptions& options)
     : options_(options), session_(options.quiet, options.wall_time, StopDeadline::none) {

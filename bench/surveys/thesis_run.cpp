@@ -7,6 +7,7 @@
 
 #include "bench/baselines/all_pairs.h"
 #include "bench/methods/collision_case.h"
+#include "core/contact/perram_wertheim.h"
 #include "core/state/check.h"
 #include "edmd/brownian.h"
 #include "mc/lattice.h"
@@ -126,6 +127,20 @@ std::vector<double> relaxation_times(const RelaxationScene& scene) {
 }
 
 }  // namespace
+
+double densest_square_lattice(const Ellipse& shape, double angle) {
+  // The lattice constant at which no neighbour along (i, j) touches.
+  double constant = 0;
+  const int far = static_cast<int>(std::ceil(shape.aspect_ratio())) + 1;
+  for (int x = 0; x <= far; ++x)
+    for (int y = -far; y <= far; ++y) {
+      if (x == 0 && y <= 0) continue;
+      const Vec2 site(x, y);
+      constant =
+          std::max(constant, contact_distance(shape, angle, shape, angle, site) / norm(site));
+    }
+  return shape.volume() / (constant * constant);
+}
 
 Configuration2 on_lattice(const ThesisScene& scene) {
   Configuration2 c;

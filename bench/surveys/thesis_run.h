@@ -21,6 +21,10 @@ struct ThesisScene {
   std::uint64_t seed = 1;
 };
 
+/// The largest packing fraction at which equal ellipses at `angle` fit a square lattice without
+/// overlap; κ = √3 at π/4 reaches π/(2√3).
+double densest_square_lattice(const Ellipse& shape, double angle);
+
 /// On a square lattice with the major axes along its diagonal, as in the thesis, or triangular where
 /// that does not fit; at rest.
 Configuration2 on_lattice(const ThesisScene& scene);

@@ -40,13 +40,4 @@ double perimeter(const Ellipse& ellipse);
 /// Shape matrix Σ = R(θ) diag(a², b²) R(θ)ᵀ; the ellipse is the set of x with xᵀ Σ⁻¹ x ≤ 1.
 Mat2 shape_matrix(const Ellipse& ellipse, double angle);
 
-/// The ellipse function E(t, x) = (x − r(t))ᵀ Σ(t)⁻¹ (x − r(t)) − 1 of an ellipse in free flight:
-/// negative inside, 0 on the boundary, with exact first and second derivatives in (t, x, y).
-struct EllipseFunction {
-  double value;
-  Vec3 gradient;            ///< ∂/∂(t, x, y)
-  Eigen::Matrix3d hessian;  ///< second derivatives in the order (t, x, y)
-};
-EllipseFunction ellipse_function(const Flight<Ellipse>& flight, double time, const Vec2& point);
-
 }  // namespace vitrel

@@ -60,9 +60,6 @@ class PeriodicBox {
     return shift;
   }
 
-  /// Whether only the nearest image of a particle can lie within `reach`.
-  bool nearest_image_suffices(double reach) const { return lengths_.minCoeff() > 2 * reach; }
-
   /// Calls visit(shift, d + shift ∘ L) for every image with |d + shift ∘ L| ≤ reach, in ascending
   /// order of the shift (last direction fastest).
   template <class Visit>

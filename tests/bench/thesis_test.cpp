@@ -5,10 +5,13 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "bench/programs/thesis.h"
+#include "bench/surveys/thesis_run.h"
 #include "tests/app/program.h"
+#include "tests/support/scenes.h"
 
 namespace vitrel::bench {
 namespace {
@@ -22,6 +25,19 @@ std::string content(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
+}
+
+// Disks fill π/4 of a square lattice; κ = √3 at 45° reaches the triangular lattice's π/(2√3), and
+// θ and −θ are mirror images (thesis, figure 4.5).
+TEST(BenchThesis, DensestSquareLattices) {
+  constexpr double pi = std::numbers::pi;
+  EXPECT_NEAR(densest_square_lattice({1, 1}, 0.3), pi / 4, 1e-14);
+  EXPECT_NEAR(densest_square_lattice(of_aspect_ratio(std::sqrt(3.0)), pi / 4),
+              pi / (2 * std::sqrt(3.0)), 1e-14);
+  EXPECT_NEAR(densest_square_lattice(of_aspect_ratio(2), 0), pi / 8, 1e-14);
+  for (double angle : {0.1, 0.5, 0.7})
+    EXPECT_NEAR(densest_square_lattice(of_aspect_ratio(3), angle),
+                densest_square_lattice(of_aspect_ratio(3), -angle), 1e-13);
 }
 
 TEST(BenchThesis, PrintsAndWrites) {

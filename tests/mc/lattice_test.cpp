@@ -25,18 +25,6 @@ Configuration2 equal_particles(std::size_t n, double aspect_ratio, double packin
   return c;
 }
 
-// Disks fill π/4 of a square lattice; κ = √3 at 45° reaches the triangular lattice's π/(2√3), and
-// θ and −θ are mirror images (thesis, figure 4.5).
-TEST(SquareLattice, DensestPackingFractions) {
-  EXPECT_NEAR(densest_square_lattice({1, 1}, 0.3), pi / 4, 1e-14);
-  EXPECT_NEAR(densest_square_lattice(of_aspect_ratio(std::sqrt(3.0)), pi / 4),
-              pi / (2 * std::sqrt(3.0)), 1e-14);
-  EXPECT_NEAR(densest_square_lattice(of_aspect_ratio(2), 0), pi / 8, 1e-14);
-  for (double angle : {0.1, 0.5, 0.7})
-    EXPECT_NEAR(densest_square_lattice(of_aspect_ratio(3), angle),
-                densest_square_lattice(of_aspect_ratio(3), -angle), 1e-13);
-}
-
 TEST(SquareLattice, ThesisSceneIsPlacedAndHard) {
   Configuration2 c = equal_particles(100, 2, 0.5);
   place_on_lattice(c, {Arrangement::square, pi / 4});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/methods/ellipses/ellipse_function.h"
 #include "core/geometry/growing.h"
 
 namespace vitrel::bench {
