@@ -145,6 +145,21 @@ class FieldVisitor {
     };
     list(field, entries);
   }
+
+  /// An array of entries, of any number if they are in a vector, where new ones are equal to `blank`.
+  /// describe(field, entry, visitor) names the one field of each entry.
+  template <class Entries, class Describe>
+  void array(const Field& field, Entries& entries, const typename Entries::value_type& blank,
+             Describe&& describe) {
+    List list;
+    list.size = [&] { return entries.size(); };
+    if constexpr (requires { entries.clear(); })
+      list.resize = [&](std::size_t count) { entries.assign(count, blank); };
+    list.describe = [&](std::size_t k, FieldVisitor& visit) {
+      describe(Field{std::to_string(k), "", ""}, entries[k], visit);
+    };
+    array(field, list);
+  }
 };
 
 /// An impossible value, as `validate` finds it: the dotted key, and "is …, but must be …".

@@ -25,14 +25,7 @@ void describe_distribution(const Field& field, Distribution& d, FieldVisitor& vi
 /// The entries of an array, each a number or a distribution. A vector may have any number of them.
 template <class Entries>
 void describe_distributions(const Field& field, Entries& entries, FieldVisitor& visit) {
-  FieldVisitor::List list;
-  list.size = [&] { return entries.size(); };
-  if constexpr (requires { entries.clear(); })
-    list.resize = [&](std::size_t count) { entries.assign(count, example_of(1)); };
-  list.describe = [&](std::size_t k, FieldVisitor& entry) {
-    describe_distribution({std::to_string(k), "", ""}, entries[k], entry);
-  };
-  visit.array(field, list);
+  visit.array(field, entries, example_of(1), describe_distribution);
 }
 
 /// Throws BadValue with `key` or a key in its table.

@@ -14,13 +14,9 @@ using Rows = StateStage::Rows;
 void describe_rows(const Field& field, std::optional<Rows>& rows, Rows example,
                    FieldVisitor& visit) {
   visit.optional(field, rows, std::move(example), [&](FieldVisitor& in, Rows& inner) {
-    FieldVisitor::List list;
-    list.size = [&] { return inner.size(); };
-    list.resize = [&](std::size_t count) { inner.assign(count, {0}); };
-    list.describe = [&](std::size_t k, FieldVisitor& entry) {
-      entry.number_or_numbers({std::to_string(k), "", ""}, inner[k]);
-    };
-    in.array(field, list);
+    in.array(field, inner, {0}, [](const Field& key, Rows::value_type& row, FieldVisitor& entry) {
+      entry.number_or_numbers(key, row);
+    });
   });
 }
 
@@ -90,13 +86,10 @@ void describe_species_names(StateStage& stage, FieldVisitor& visit) {
   const Field field{"species", "", "The name of every particle's species, if there are several."};
   visit.optional(field, stage.species, std::vector<std::string>{"A", "A"},
                  [&](FieldVisitor& in, std::vector<std::string>& names) {
-                   FieldVisitor::List list;
-                   list.size = [&] { return names.size(); };
-                   list.resize = [&](std::size_t count) { names.assign(count, ""); };
-                   list.describe = [&](std::size_t k, FieldVisitor& entry) {
-                     entry.field({std::to_string(k), "", ""}, names[k]);
-                   };
-                   in.array(field, list);
+                   in.array(field, names, "",
+                            [](const Field& key, std::string& name, FieldVisitor& entry) {
+                              entry.field(key, name);
+                            });
                  });
 }
 
