@@ -113,7 +113,7 @@ Table read_table(const h5::Group& root, const std::string& name) {
   Table table{name, group.text_attribute("description"), {}};
   for (const std::string& column : split(group.text_attribute("columns"))) {
     const h5::Dataset values = group.dataset(column);
-    table.columns.push_back({column, values.text_attribute("unit"), values.read<double>(), {}});
+    table.columns.push_back({column, values.text_attribute("unit"), values.read<double>()});
     if (values.has_attribute("labels"))
       table.columns.back().labels = split(values.text_attribute("labels"), '\n');
     if (group.has_dataset(column + error_suffix))

@@ -13,8 +13,9 @@ namespace vitrel {
 struct Column {
   std::string name;  ///< letters, digits and underscores
   std::string unit;  ///< "1" for pure numbers
-  std::vector<double> value;
-  std::vector<double> error;  ///< standard errors, NaN where unknown; empty: the column has none
+  std::vector<double> value = {};
+  /// Standard errors, NaN where unknown; empty: the column has none.
+  std::vector<double> error = {};
   /// What the values 0, 1, 2 … stand for, if they are codes; else empty.
   std::vector<std::string> labels = {};
 };

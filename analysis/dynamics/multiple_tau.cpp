@@ -267,13 +267,13 @@ std::vector<CorrelatedGroup> MultipleTau<Dim>::correlations() const {
 
 template <int Dim>
 CorrelatedGroup MultipleTau<Dim>::group_columns(std::size_t group) const {
-  Column time{"time", "time", {}, {}}, origins{"origins", "1", {}, {}};
-  std::vector<Column> values{{"msd", "length^2", {}, {}}};
+  Column time{"time", "time"}, origins{"origins", "1"};
+  std::vector<Column> values{{"msd", "length^2"}};
   for (std::size_t k = 0; k < options_.wave_numbers.size(); ++k)
-    values.push_back({fmt::format("fs_{}", k + 1), "1", {}, {}});
-  values.push_back({"msr", "rad^2", {}, {}});
-  values.push_back({Dim == 2 ? "l_2" : "p_1", "1", {}, {}});
-  values.push_back({Dim == 2 ? "l_4" : "p_2", "1", {}, {}});
+    values.push_back({fmt::format("fs_{}", k + 1), "1"});
+  values.push_back({"msr", "rad^2"});
+  values.push_back({Dim == 2 ? "l_2" : "p_1", "1"});
+  values.push_back({Dim == 2 ? "l_4" : "p_2", "1"});
 
   for (std::size_t l = 0; l < levels_.size(); ++l)
     for (const LagSums& lag : levels_[l].lags) {

@@ -10,7 +10,7 @@ namespace vitrel {
 namespace {
 
 Column time_column(const std::vector<double>& lag) {
-  return {"time", "time", lag, {}};
+  return {"time", "time", lag};
 }
 
 Column column(const std::string& name, const char* unit, const Correlation& correlation) {
@@ -103,7 +103,7 @@ Table displacement_table(const Displacements& found, const DisplacementGroup& gr
     table.columns.push_back(column("quartic_rotation", "rad^4", group.quartic_rotation));
     table.columns.push_back(column("non_gaussian_rotation", "1", group.non_gaussian_rotation));
   }
-  table.columns.push_back({"origins", "1", numbers(found.origins), {}});
+  table.columns.push_back({"origins", "1", numbers(found.origins)});
   return table;
 }
 
@@ -222,7 +222,7 @@ Table cage_relative_table(const CageRelative& found, double overlap_distance) {
     table.columns.push_back(column(fmt::format("fs_{}", k + 1), "1", found.self_scattering[k]));
   table.columns.push_back(column("overlap", "1", found.overlap));
   table.columns.push_back(column("chi_4", "1", found.susceptibility));
-  table.columns.push_back({"origins", "1", numbers(found.origins), {}});
+  table.columns.push_back({"origins", "1", numbers(found.origins)});
   return table;
 }
 
@@ -310,8 +310,7 @@ Table waiting_time_table(const std::vector<AgedMotion>& ageing) {
               "Waiting times t_w of the ageing, and the length over which orientations were "
               "correlated then: beyond it <cos 2(difference of two angles)> stays below 1/e.",
               {}};
-  Column index{"index", "1", {}, {}}, time{"waiting_time", "time", {}, {}},
-      length{"nematic_length", "length", {}, {}};
+  Column index{"index", "1"}, time{"waiting_time", "time"}, length{"nematic_length", "length"};
   for (const AgedMotion& aged : ageing) {
     index.value.push_back(static_cast<double>(index.value.size() + 1));
     time.value.push_back(aged.waiting_time);
@@ -345,8 +344,7 @@ Table wave_number_table(const RunDynamics& dynamics) {
       "Wave numbers q_k of the scattering functions; of the collective ones mean length and "
       "number of the wave vectors of the box.",
       {}};
-  Column index{"index", "1", {}, {}}, shell{"q_collective", "1/length", {}, {}},
-      modes{"modes", "1", {}, {}};
+  Column index{"index", "1"}, shell{"q_collective", "1/length"}, modes{"modes", "1"};
   const std::vector<double>& wave_numbers = dynamics.displacements.wave_numbers;
   for (std::size_t k = 0; k < wave_numbers.size(); ++k)
     index.value.push_back(static_cast<double>(k + 1));
@@ -354,7 +352,7 @@ Table wave_number_table(const RunDynamics& dynamics) {
     shell.value.push_back(dynamics.collective.wave_numbers[k]);
     modes.value.push_back(static_cast<double>(dynamics.collective.modes[k]));
   }
-  table.columns = {index, {"q", "1/length", wave_numbers, {}}};
+  table.columns = {index, {"q", "1/length", wave_numbers}};
   if (!modes.value.empty()) table.columns.insert(table.columns.end(), {shell, modes});
   return table;
 }

@@ -6,17 +6,17 @@ namespace {
 Table energy_table(const EnergySeries& energy) {
   return {"energies",
           "Energies per particle at the sample times, in kT; translational + rotational = total.",
-          {{"time", "time", energy.time, {}},
-           {"translational", "kT", energy.translational, {}},
-           {"rotational", "kT", energy.rotational, {}},
-           {"total", "kT", energy.total, {}}}};
+          {{"time", "time", energy.time},
+           {"translational", "kT", energy.translational},
+           {"rotational", "kT", energy.rotational},
+           {"total", "kT", energy.total}}};
 }
 
 Table compressibility_table(const CompressibilitySeries& series) {
   return {"compressibility_factor",
           "Compressibility factor Z = P/(rho kT) from the virial of the collisions between two "
           "samples.",
-          {{"time", "time", series.time, {}}, {"z", "1", series.value, {}}}};
+          {{"time", "time", series.time}, {"z", "1", series.value}}};
 }
 
 }  // namespace

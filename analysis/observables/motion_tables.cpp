@@ -42,9 +42,9 @@ std::vector<Table> velocity_tables(const VelocityCorrelations& found) {
       observables[0].table,
       observables[0].what + fmt::format(" <v^2> = {:.6g}, <omega^2> = {:.6g}.",
                                         found.translation.mean_square, found.rotation.mean_square),
-      {{"time", "time", found.lag, {}}}};
+      {{"time", "time", found.lag}}};
   Table spectrum{
-      observables[1].table, observables[1].what, {{"frequency", "rad/time", found.frequency, {}}}};
+      observables[1].table, observables[1].what, {{"frequency", "rad/time", found.frequency}}};
   const auto add = [&](const std::string& ending, const VelocityCorrelation& of) {
     if (of.correlation.value.empty()) return;
     correlation.columns.push_back({"c" + ending, "1", of.correlation.value, of.correlation.error});
@@ -52,7 +52,7 @@ std::vector<Table> velocity_tables(const VelocityCorrelations& found) {
   };
   add("", found.translation);
   add("_angular", found.rotation);
-  correlation.columns.push_back({"origins", "1", {found.origins.begin(), found.origins.end()}, {}});
+  correlation.columns.push_back({"origins", "1", {found.origins.begin(), found.origins.end()}});
   if (found.frequency.empty()) return {correlation};
   return {correlation, spectrum};
 }
@@ -76,10 +76,10 @@ Table viscosity_table(const Viscosity& found, int dimension) {
   const Observable observable = viscosity_observable();
   return {observable.table,
           observable.what,
-          {{"time", "time", found.lag, {}},
+          {{"time", "time", found.lag},
            {"moment", fmt::format("kT time^2/length^{}", dimension), found.moment.value,
             found.moment.error},
-           {"origins", "1", {found.origins.begin(), found.origins.end()}, {}}}};
+           {"origins", "1", {found.origins.begin(), found.origins.end()}}}};
 }
 
 /// The table of a function of two times has the x of its chart as rows, and a column for every lag.
@@ -136,7 +136,7 @@ std::vector<TwoTimeTable> two_time_tables() {
 Table lag_table(const std::vector<Lag>& lags) {
   Table table{"lag_times",
               "Time differences t_k of the tables with a column for each, and their origins.",
-              {{"index", "1", {}, {}}, {"time", "time", {}, {}}, {"origins", "1", {}, {}}}};
+              {{"index", "1"}, {"time", "time"}, {"origins", "1"}}};
   for (const Lag& lag : lags) {
     table.columns[0].value.push_back(static_cast<double>(table.rows() + 1));
     table.columns[1].value.push_back(lag.time);
@@ -147,7 +147,7 @@ Table lag_table(const std::vector<Lag>& lags) {
 
 Table table_of(const TwoTimeTable& kind, const TwoTimeAverages& found) {
   const Chart& chart = kind.observable.charts.front();
-  Table table{kind.observable.table, kind.observable.what, {{chart.x, kind.x_unit, found.x, {}}}};
+  Table table{kind.observable.table, kind.observable.what, {{chart.x, kind.x_unit, found.x}}};
   const std::string name = chart.curves.front().column;  // ends with #
   for (const Averages& lag : found.at_lag)
     table.columns.push_back(

@@ -26,17 +26,17 @@ class PlaneOrder final : public FrameObservable<2> {
   std::vector<Table> tables(bool) const override {
     Table table{"order",
                 "Order of single frames: hexatic = |<psi>|, neighbours by Voronoi cells.",
-                {{"time", "time", time_, {}}}};
+                {{"time", "time", time_}}};
     if (rotors_ > 0) {
       table.description = fmt::format(
           "Order of single frames: nematic = |<exp(2 i theta)>|, about sqrt(pi/(4 R)) = {:.3g} for "
           "the {} rotors without any order; director, its angle from -pi/2 to pi/2; hexatic = "
           "|<psi>|, neighbours by Voronoi cells.",
           nematic_order_by_chance(rotors_), rotors_);
-      table.columns.push_back({"nematic", "1", nematic_, {}});
-      table.columns.push_back({"director", "rad", director_, {}});
+      table.columns.push_back({"nematic", "1", nematic_});
+      table.columns.push_back({"director", "rad", director_});
     }
-    table.columns.push_back({"hexatic", "1", hexatic_, {}});
+    table.columns.push_back({"hexatic", "1", hexatic_});
     return {table};
   }
 
@@ -71,9 +71,9 @@ class SpaceOrder final : public FrameObservable<3> {
             "lambda of the orientation tensor, about {:.3g} for the {} axes without any "
             "order; director: its eigenvector, either of two opposite ones.",
             nematic_order_by_chance(rotors_, 3), rotors_),
-        {{"time", "time", time_, {}}, {"nematic", "1", nematic_, {}}}};
+        {{"time", "time", time_}, {"nematic", "1", nematic_}}};
     for (std::size_t k = 0; k < 3; ++k)
-      table.columns.push_back({fmt::format("director_{}", "xyz"[k]), "1", director_[k], {}});
+      table.columns.push_back({fmt::format("director_{}", "xyz"[k]), "1", director_[k]});
     return {table};
   }
 

@@ -40,9 +40,9 @@ class AngleDistribution final : public FrameObservable<2> {
                          "frames; by_chance: without order, (1 + 2 S cos(2 angle))/pi, with the S "
                          "of a finite system, about sqrt(pi/(4 R)) = {:.3g}.",
                          frames_, order),
-             {{"angle", "rad", std::move(angle), {}},
+             {{"angle", "rad", std::move(angle)},
               averaged("density", "1/rad", density_, is_even),
-              {"by_chance", "1/rad", std::move(by_chance), {}}}}};
+              {"by_chance", "1/rad", std::move(by_chance)}}}};
   }
 
  private:
@@ -83,7 +83,7 @@ class TensorAverage final : public FrameObservable<3> {
       table.columns.push_back(
           {fmt::format("t_{}", "xyz"[k]), "1", rows(averages.mean), rows(averages.error)});
     }
-    table.columns.push_back({"eigenvalue", "1", {values[0], values[1], values[2]}, {}});
+    table.columns.push_back({"eigenvalue", "1", {values[0], values[1], values[2]}});
     for (int k = 0; k < 3; ++k)
       table.columns.push_back({fmt::format("eigenvector_{}", "xyz"[k]),
                                "1",

@@ -41,7 +41,7 @@ class PairCorrelationObservable final : public FrameObservable<Dim> {
                             "particles that are not round.",
                             options_.distance_step, frames_,
                             Dim == 2 ? "<cos n(theta_i - theta_j)>" : "<P_n(u_i.u_j)>"),
-                {{"r", "length", distance_, {}}, averaged("g", "1", g_, is_even)}};
+                {{"r", "length", distance_}, averaged("g", "1", g_, is_even)}};
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       Column partial =
           averaged("g_" + identifier(pairs_[k]), "1", partial_[k], is_even, mixing_[k]);
@@ -78,7 +78,7 @@ class PairCorrelationObservable final : public FrameObservable<Dim> {
         options_.distance_step, Dim == 2 ? "long axis" : "figure axis", frames_,
         Dim == 2 ? "g_theta_05: theta from 0 to 10 degrees, and so on in steps of 10"
                  : "g_cos_theta_95: cos theta from 1 to 0.9, and so on in steps of 0.1");
-    Table table{"pair_correlation_by_angle", what, {{"r", "length", near_, {}}}};
+    Table table{"pair_correlation_by_angle", what, {{"r", "length", near_}}};
     for (std::size_t k = 0; k < by_angle_.size(); ++k)
       table.columns.push_back(averaged(column_of_angle<Dim>(k), "1", by_angle_[k], is_even));
     return table;

@@ -34,7 +34,7 @@ class TwoPointObservable final : public FrameObservable<3> {
                     "from points {:.4g} apart) and that a segment of length r along an axis "
                     "lies in particles (lineal path, exact).",
                     spacing_),
-        {{"r", "length", distance_, {}}, averaged("s2", "1", probability_, is_even)}};
+        {{"r", "length", distance_}, averaged("s2", "1", probability_, is_even)}};
     for (std::size_t k = 0; k < 3; ++k)
       table.columns.push_back(averaged(path_names[k], "1", paths_[k], is_even,
                                        has_rotors_ ? along_[k] : std::span<const double>()));

@@ -79,16 +79,14 @@ class VelocityObservable final : public FrameObservable<Dim> {
                  "the second Sonine coefficient a_2 = {0} <m^2 v^4>/({1} <m v^2>^2) - 1, 0 in "
                  "equilibrium.",
                  Dim, Dim + 2),
-             {{"time", "time", time_, {}},
-              {"temperature", "kT", temperature_, {}},
-              {"a_2", "1", sonine_, {}}}},
+             {{"time", "time", time_}, {"temperature", "kT", temperature_}, {"a_2", "1", sonine_}}},
             {"velocity_distribution",
              fmt::format("Density of the components c of sqrt(m/T) v, averaged over {} frames; "
                          "gaussian: in equilibrium, exp(-c^2/2)/sqrt(2 pi).",
                          time_.size()),
-             {{"component", "1", std::move(component), {}},
+             {{"component", "1", std::move(component)},
               averaged("density", "1", density_, is_even),
-              {"gaussian", "1", std::move(gaussian), {}}}}};
+              {"gaussian", "1", std::move(gaussian)}}}};
   }
 
  private:

@@ -86,29 +86,29 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
   const Estimate rotational = time_average(run.energy.time, run.energy.rotational);
   const Estimate& z = run.compressibility.mean;
   std::vector<Column> columns{
-      {"packing_fraction", "1", {run.packing_fraction}, {}},
-      {"particles", "1", {static_cast<double>(run.particles)}, {}},
-      {"rotors", "1", {static_cast<double>(run.rotors)}, {}},
-      {"rotations", "1", {static_cast<double>(run.rotations)}, {}},
-      {"frames", "1", {static_cast<double>(run.frames)}, {}},
-      {"collisions", "1", {run.collisions}, {}},
-      {"duration", "time", {run.duration}, {}},
+      {"packing_fraction", "1", {run.packing_fraction}},
+      {"particles", "1", {static_cast<double>(run.particles)}},
+      {"rotors", "1", {static_cast<double>(run.rotors)}},
+      {"rotations", "1", {static_cast<double>(run.rotations)}},
+      {"frames", "1", {static_cast<double>(run.frames)}},
+      {"collisions", "1", {run.collisions}},
+      {"duration", "time", {run.duration}},
       single("compressibility_factor", "1", z.mean, z.error),
       single("translational_energy", "kT", translational.mean, translational.error),
       single("rotational_energy", "kT", rotational.mean, rotational.error),
       single("diffusion", "length^2/time", run.diffusion.value, run.diffusion.error),
-      {"diffusion_from", "time", {run.diffusion.from}, {}},
-      {"diffusion_to", "time", {run.diffusion.to}, {}},
+      {"diffusion_from", "time", {run.diffusion.from}},
+      {"diffusion_to", "time", {run.diffusion.to}},
       single("rotational_diffusion", "rad^2/time", run.rotational_diffusion.value,
              run.rotational_diffusion.error),
-      {"rotational_diffusion_from", "time", {run.rotational_diffusion.from}, {}},
-      {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}, {}}};
+      {"rotational_diffusion_from", "time", {run.rotational_diffusion.from}},
+      {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}}};
   if (run.motion && run.motion->viscosity) {
     const DiffusionCoefficient& viscosity = run.motion->viscosity->shear;
     columns.push_back(single("viscosity", fmt::format("kT time/length^{}", run.motion->dimension),
                              viscosity.value, viscosity.error));
-    columns.push_back({"viscosity_from", "time", {viscosity.from}, {}});
-    columns.push_back({"viscosity_to", "time", {viscosity.to}, {}});
+    columns.push_back({"viscosity_from", "time", {viscosity.from}});
+    columns.push_back({"viscosity_to", "time", {viscosity.to}});
   }
   for (const Table& table : run.structure.tables)
     if (const Column* hexatic = table.name == "order" ? table.find("hexatic") : nullptr) {

@@ -24,13 +24,12 @@ double number(Code code) {
 
 /// A value, and its error if the column has errors.
 struct Entry {
-  double value;
-  std::optional<double> error = {};
-};
+  Entry(double number) : value(number) {}
+  Entry(double number, double its_error) : value(number), error(its_error) {}
 
-Entry plain(double value) {
-  return {value};
-}
+  double value;
+  std::optional<double> error;
+};
 
 /// An entry for every column.
 void add_row(Table& table, const std::vector<Entry>& row) {
@@ -59,33 +58,32 @@ Table relaxation_table(const GlassStudy& study) {
       "equilibrated runs enter the fits, of translation by the latter. nematic_order: S, beside "
       "that of as many rotors without order; plateau: of L_2 by order, 0 if not nematic; "
       "orientation: what becomes of it.",
-      {{"run", "1", {}, {}},
-       {"packing_fraction", "1", {}, {}},
-       {"seed", "1", {}, {}},
-       {"duration", "time", {}, {}},
+      {{"run", "1"},
+       {"packing_fraction", "1"},
+       {"seed", "1"},
+       {"duration", "time"},
        codes("verdict", verdict_names),
-       {"tests", "1", {}, {}},
+       {"tests", "1"},
        codes("verdict_translation", verdict_names),
-       {"tests_translation", "1", {}, {}},
-       {"wave_number", "1/length", {}, {}},
-       {"tau_translation", "time", {}, {}},
-       {"tau_rotation", "time", {}, {}},
-       {"nematic_order", "1", {}, {}},
-       {"nematic_by_chance", "1", {}, {}},
-       {"plateau", "1", {}, {}},
+       {"tests_translation", "1"},
+       {"wave_number", "1/length"},
+       {"tau_translation", "time"},
+       {"tau_rotation", "time"},
+       {"nematic_order", "1"},
+       {"nematic_by_chance", "1"},
+       {"plateau", "1"},
        codes("orientation", orientation_names)}};
   for (const GlassRun& run : study.runs) {
     const auto place = static_cast<double>(table.rows());
-    add_row(table, {plain(place), plain(run.packing_fraction), plain(static_cast<double>(run.seed)),
-                    plain(run.duration), plain(number(run.equilibration.verdict)),
-                    plain(static_cast<double>(run.equilibration.tests)),
-                    plain(number(run.translation_equilibration.verdict)),
-                    plain(static_cast<double>(run.translation_equilibration.tests)),
-                    plain(run.wave_number), Entry{run.translation.value, run.translation.error},
-                    Entry{run.rotation.value, run.rotation.error},
-                    Entry{run.nematic_order.mean, run.nematic_order.error},
-                    plain(run.rotors > 0 ? nematic_order_by_chance(run.rotors) : unknown),
-                    plain(run.plateau), plain(number(run.orientation))});
+    add_row(table, {place, run.packing_fraction, static_cast<double>(run.seed), run.duration,
+                    number(run.equilibration.verdict), static_cast<double>(run.equilibration.tests),
+                    number(run.translation_equilibration.verdict),
+                    static_cast<double>(run.translation_equilibration.tests), run.wave_number,
+                    Entry(run.translation.value, run.translation.error),
+                    Entry(run.rotation.value, run.rotation.error),
+                    Entry(run.nematic_order.mean, run.nematic_order.error),
+                    run.rotors > 0 ? nematic_order_by_chance(run.rotors) : unknown, run.plateau,
+                    number(run.orientation)});
     table.columns.front().labels.push_back(run.name);
   }
   return table;
@@ -104,34 +102,33 @@ Table fit_table(const GlassStudy& study) {
       {codes("kind", kind_names),
        codes("law", law_names),
        codes("verdict", fit_verdict_names),
-       {"phi_c", "1", {}, {}},
-       {"phi_c_least", "1", {}, {}},
-       {"exponent", "1", {}, {}},
-       {"exponent_most", "1", {}, {}},
-       {"window_low", "1", {}, {}},
-       {"window_high", "1", {}, {}},
-       {"densities", "1", {}, {}},
-       {"window_phi_c", "1", {}, {}},
-       {"window_exponent", "1", {}, {}},
-       {"window_log_prefactor", "ln(time)", {}, {}},
-       {"chi2", "1", {}, {}},
-       {"dof", "1", {}, {}},
-       {"scatter", "1", {}, {}}}};
+       {"phi_c", "1"},
+       {"phi_c_least", "1"},
+       {"exponent", "1"},
+       {"exponent_most", "1"},
+       {"window_low", "1"},
+       {"window_high", "1"},
+       {"densities", "1"},
+       {"window_phi_c", "1"},
+       {"window_exponent", "1"},
+       {"window_log_prefactor", "ln(time)"},
+       {"chi2", "1"},
+       {"dof", "1"},
+       {"scatter", "1"}}};
   for (const StudiedLaw& studied : study.laws) {
     const GlassFit& fit = studied.fit;
     const GlassWindow& w = fit.window;
     const bool found = fit.verdict == GlassVerdict::found;
     const bool any = !fit.windows.empty();
-    const auto if_any = [&](double value) { return plain(any ? value : unknown); };
-    add_row(table,
-            {plain(number(studied.kind)), plain(number(studied.law)), plain(number(fit.verdict)),
-             found ? Entry{w.density, w.error()} : Entry{unknown, unknown},
-             plain(fit.verdict == GlassVerdict::refused ? unknown : w.least),
-             found ? Entry{w.strength, w.strength_error()} : Entry{unknown, unknown},
-             if_any(w.strength_most), if_any(w.lowest), if_any(w.highest),
-             if_any(static_cast<double>(w.densities)), if_any(w.density), if_any(w.strength),
-             if_any(w.log_prefactor), if_any(w.chi_square), if_any(static_cast<double>(w.degrees)),
-             plain(fit.scatter)});
+    const auto if_any = [&](double value) { return any ? value : unknown; };
+    add_row(table, {number(studied.kind), number(studied.law), number(fit.verdict),
+                    found ? Entry(w.density, w.error()) : Entry(unknown, unknown),
+                    fit.verdict == GlassVerdict::refused ? unknown : w.least,
+                    found ? Entry(w.strength, w.strength_error()) : Entry(unknown, unknown),
+                    if_any(w.strength_most), if_any(w.lowest), if_any(w.highest),
+                    if_any(static_cast<double>(w.densities)), if_any(w.density), if_any(w.strength),
+                    if_any(w.log_prefactor), if_any(w.chi_square),
+                    if_any(static_cast<double>(w.degrees)), fit.scatter});
   }
   return table;
 }
@@ -143,21 +140,20 @@ Table window_table(const GlassStudy& study) {
                           kinds_text),
               {codes("kind", kind_names),
                codes("law", law_names),
-               {"window_low", "1", {}, {}},
-               {"window_high", "1", {}, {}},
-               {"phi_c", "1", {}, {}},
-               {"phi_c_low", "1", {}, {}},
-               {"phi_c_high", "1", {}, {}},
-               {"exponent", "1", {}, {}},
-               {"chi2", "1", {}, {}},
-               {"dof", "1", {}, {}},
-               {"goodness", "1", {}, {}}}};
+               {"window_low", "1"},
+               {"window_high", "1"},
+               {"phi_c", "1"},
+               {"phi_c_low", "1"},
+               {"phi_c_high", "1"},
+               {"exponent", "1"},
+               {"chi2", "1"},
+               {"dof", "1"},
+               {"goodness", "1"}}};
   for (const StudiedLaw& studied : study.laws)
     for (const GlassWindow& w : studied.fit.windows)
       add_row(table,
-              {plain(number(studied.kind)), plain(number(studied.law)), plain(w.lowest),
-               plain(w.highest), plain(w.density), plain(w.low), plain(w.high), plain(w.strength),
-               plain(w.chi_square), plain(static_cast<double>(w.degrees)), plain(w.goodness)});
+              {number(studied.kind), number(studied.law), w.lowest, w.highest, w.density, w.low,
+               w.high, w.strength, w.chi_square, static_cast<double>(w.degrees), w.goodness});
   return table;
 }
 

@@ -21,17 +21,17 @@ Table empty_table() {
       "cage_relative; "
       "parameter: its q or n. Without tau: a time that it "
       "outlives (least) or by which it has decayed (most), and the reason in the provenance.",
-      {{"group", "1", {}, {}},
+      {{"group", "1"},
        {"kind",
         "1",
         {},
         {},
         {"self scattering", "orientation", "orientation of the middle axis",
          "orientation of the shortest axis", "self scattering relative to the cage"}},
-       {"parameter", "1/length or 1", {}, {}},
-       {"tau", "time", {}, {}},
-       {"least", "time", {}, {}},
-       {"most", "time", {}, {}}}};
+       {"parameter", "1/length or 1"},
+       {"tau", "time"},
+       {"least", "time"},
+       {"most", "time"}}};
 }
 
 /// Appends rows and reasons.

@@ -159,12 +159,12 @@ std::vector<Column> state_columns(const Configuration3& state) {
   const OrientationTensor tensor = orientation_tensor(state);
   const IsotropicRatio isotropic = isotropic_ratio(tensor.axes);
   const Vec3& box = state.box.lengths();
-  return {{"box_x", "length", {box.x()}, {}},
-          {"box_y", "length", {box.y()}, {}},
-          {"box_z", "length", {box.z()}, {}},
-          {"orientation_ratio", "1", {tensor.ratio()}, {}},
-          {"isotropic_ratio", "1", {isotropic.mean}, {}},
-          {"isotropic_ratio_deviation", "1", {isotropic.standard_deviation}, {}}};
+  return {{"box_x", "length", {box.x()}},
+          {"box_y", "length", {box.y()}},
+          {"box_z", "length", {box.z()}},
+          {"orientation_ratio", "1", {tensor.ratio()}},
+          {"isotropic_ratio", "1", {isotropic.mean}},
+          {"isotropic_ratio_deviation", "1", {isotropic.standard_deviation}}};
 }
 
 /// Smooth, if the file does not say.

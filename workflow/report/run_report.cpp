@@ -84,7 +84,7 @@ void add_cost(const TrajectoryReader& reader, Results& results) {
     return;
   const auto summary = std::ranges::find(results.tables, "summary", &Table::name);
   if (summary == results.tables.end() || summary->find("wall_seconds")) return;
-  summary->columns.push_back({"wall_seconds", "s", {seconds}, {}});
+  summary->columns.push_back({"wall_seconds", "s", {seconds}});
   summary->columns.push_back({"collisions_per_second_with_output",
                               "1/s",
                               {reader.observable("collisions").back() / seconds},

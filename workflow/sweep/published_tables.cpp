@@ -26,8 +26,8 @@ Table values_table(const std::vector<SeedAverage>& averages) {
   const std::vector<StudyAxis> keys = keys_of(averages);
   std::vector<Column> columns;
   for (const StudyAxis& key : keys) columns.push_back({key.column(), key.unit, {}, {}, key.labels});
-  Column quantity{"quantity", "1", {}, {}}, source{"source", "1", {}, {}},
-      published{"published", "1", {}, {}}, measured{"measured", "1", {}, {}};
+  Column quantity{"quantity", "1"}, source{"source", "1"}, published{"published", "1"},
+      measured{"measured", "1"};
   for (std::size_t row = 0; row < averages.size(); ++row)
     for (const Published& entry : averages[row].published) {
       if (entry.is_exponent) continue;
@@ -76,9 +76,8 @@ double measured_exponent(const Published& law, const std::vector<double>& abscis
 Table exponents_table(const std::vector<SeedAverage>& averages, const StudyAxis& abscissa) {
   const std::vector<StudyAxis> keys = keys_of(averages);
   const std::vector<double>& places = std::ranges::find(keys, abscissa.key, &StudyAxis::key)->value;
-  Column quantity{"quantity", "1", {}, {}}, source{"source", "1", {}, {}},
-      from{"from", abscissa.unit, {}, {}}, to{"to", abscissa.unit, {}, {}},
-      published{"published", "1", {}, {}}, measured{"measured", "1", {}, {}};
+  Column quantity{"quantity", "1"}, source{"source", "1"}, from{"from", abscissa.unit},
+      to{"to", abscissa.unit}, published{"published", "1"}, measured{"measured", "1"};
   for (const Published& entry : averages.front().published) {
     if (!entry.is_exponent) continue;
     add_word(quantity, entry.quantity);

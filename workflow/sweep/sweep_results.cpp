@@ -70,7 +70,7 @@ Table runs_table(const AnalysedSweep& sweep) {
               "The jobs of the sweep, one per row: the values of its keys, the averages over every "
               "run, relaxation times and verdicts.",
               {}};
-  Column jobs{"job", "1", {}, {}}, seeds{"seed", "1", {}, {}};
+  Column jobs{"job", "1"}, seeds{"seed", "1"};
   std::size_t rows = 0;
   for (const AnalysedRun& run : sweep.runs) {
     jobs.value.push_back(static_cast<double>(jobs.labels.size()));
@@ -88,8 +88,7 @@ Table runs_table(const AnalysedSweep& sweep) {
 /// Means with their errors, and half the width of their intervals.
 void add_figure(const std::vector<SeedAverage>& averages, const std::string& name,
                 const std::string& unit, Table& table) {
-  Column mean{name, unit, {}, {}}, interval{name + "_interval", unit, {}, {}},
-      scatter{name + "_scatter", "1", {}, {}};
+  Column mean{name, unit}, interval{name + "_interval", unit}, scatter{name + "_scatter", "1"};
   for (const SeedAverage& average : averages) {
     const AveragedFigure figure = average.find(name);
     mean.value.push_back(figure.mean);
@@ -132,7 +131,7 @@ Table seeds_table(const std::vector<SeedAverage>& averages, const Table& runs) {
       "of the seeds over the errors of their runs, about 1 if these explain it.",
       {}};
   for (const StudyAxis& key : study_keys(values)) table.columns.push_back(column_of(key));
-  Column seeds{"seeds", "1", {}, {}};
+  Column seeds{"seeds", "1"};
   for (const SeedAverage& average : averages)
     seeds.value.push_back(static_cast<double>(average.seeds));
   table.columns.push_back(std::move(seeds));
@@ -170,7 +169,7 @@ void add_figures(const Json& job, std::span<const Quantity> quantities, Results&
     const double value = job[name].is_number() ? job[name].get<double>() : unknown;
     const auto known = std::ranges::find(summary->columns, name, &Column::name);
     if (known == summary->columns.end())
-      summary->columns.push_back({name, unit, {value}, {}});
+      summary->columns.push_back({name, unit, {value}});
     else if (std::isnan(known->value.front()))
       known->value.front() = value;
   }
