@@ -41,16 +41,16 @@ std::string csv_text(const std::string& text) {
   return quoted + '"';
 }
 
-std::string csv_cell(const Column& column, double value) {
-  const bool is_code = value >= 0 && value < static_cast<double>(column.labels.size());
-  return is_code ? csv_text(column.labels[static_cast<std::size_t>(value)]) : number(value);
+std::string csv_cell(const Column& column, std::size_t row) {
+  const std::optional<std::string> text = label_of(column, row);
+  return text ? csv_text(*text) : number(column.value.at(row));
 }
 
 std::string csv_row(const Table& table, std::size_t row) {
   std::string line;
   for (const Column& column : table.columns) {
     if (!line.empty()) line += ',';
-    line += csv_cell(column, column.value.at(row));
+    line += csv_cell(column, row);
     if (!column.error.empty()) line.append(",").append(number(column.error.at(row)));
   }
   return line;
@@ -160,6 +160,12 @@ std::string Results::text(const std::string& name) const {
   const auto found = std::find_if(provenance.begin(), provenance.end(),
                                   [&](const auto& candidate) { return candidate.first == name; });
   return found == provenance.end() ? "" : found->second;
+}
+
+std::optional<std::string> label_of(const Column& column, std::size_t row) {
+  const double code = column.value.at(row);
+  const bool is_known = code >= 0 && code < static_cast<double>(column.labels.size());
+  return is_known ? std::optional(column.labels[static_cast<std::size_t>(code)]) : std::nullopt;
 }
 
 std::string identifier(const std::string& name) {

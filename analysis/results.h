@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,9 @@ struct Results {
   /// The text of that name from the provenance; empty if there is none.
   std::string text(const std::string& name) const;
 };
+
+/// What the code in that row stands for; nothing if it is unknown, or the column has no codes.
+std::optional<std::string> label_of(const Column& column, std::size_t row);
 
 /// The name of a species or the like as names of tables and columns may be: other characters than
 /// letters and digits become underscores.

@@ -6,17 +6,12 @@
 #include <map>
 #include <string_view>
 
+#include "workflow/sweep/process.h"
+
 namespace vitrel {
 namespace {
 
 using Descriptions = std::vector<OptionDescription>;
-
-/// In single quotes, in which a shell takes every character for itself.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
-  return result + '\'';
-}
 
 std::string with_backslashes(const std::string& text, std::string_view before) {
   std::string result;
@@ -51,7 +46,7 @@ std::string value_cases(const std::string& path, const CommandDescription& comma
         patterns[offer(option)].push_back(path + ":" + name);
   std::string cases;
   for (const auto& [offered, names] : patterns)
-    cases += fmt::format("    {}) offer={} ;;\n", fmt::join(names, " | "), quoted(offered));
+    cases += fmt::format("    {}) offer={} ;;\n", fmt::join(names, " | "), shell_word(offered));
   return cases;
 }
 
@@ -65,7 +60,7 @@ std::string offer_of_words(const CommandDescription& command) {
 
 std::string word_cases(const std::string& path, const CommandDescription& command) {
   return fmt::format("        {0}:-*) offer={1} ;;\n        {0}:*) offer={2} ;;\n", path,
-                     quoted(all_names(command.options)), quoted(offer_of_words(command)));
+                     shell_word(all_names(command.options)), shell_word(offer_of_words(command)));
 }
 
 /// Of a command and all those below it, each by its path, such as vitrel/pair/gap.
@@ -97,7 +92,7 @@ std::string option_specifications(const OptionDescription& option) {
   std::string lines;
   for (const std::string& name : option.names) {
     const char* joined = option.value.empty() ? "" : name.starts_with("--") ? "=" : "+";
-    lines += " \\\n      " + quoted(others + name + joined + text);
+    lines += " \\\n      " + shell_word(others + name + joined + text);
   }
   return lines;
 }
@@ -106,8 +101,8 @@ std::string specifications(const CommandDescription& command) {
   std::string lines;
   for (const OptionDescription& option : command.options) lines += option_specifications(option);
   for (const OptionDescription& argument : command.arguments)
-    lines += " \\\n      " + quoted(fmt::format("{}:{}:{}", argument.required ? "" : ":",
-                                                argument.names.front(), action(argument)));
+    lines += " \\\n      " + shell_word(fmt::format("{}:{}:{}", argument.required ? "" : ":",
+                                                    argument.names.front(), action(argument)));
   return lines;
 }
 
@@ -118,7 +113,7 @@ std::string zsh_function(const std::string& name, const CommandDescription& comm
     const bool has_function = !below.commands.empty();
     const std::string function = name + "_" + below.name;
     if (has_function) functions += zsh_function(function, below);
-    commands += fmt::format("    {}\n", quoted(below.name + ":" + below.sentence));
+    commands += fmt::format("    {}\n", shell_word(below.name + ":" + below.sentence));
     cases += fmt::format("    {}) {} ;;\n", below.name,
                          has_function ? function : "_arguments" + specifications(below));
   }

@@ -45,7 +45,7 @@ struct Row {
   /// What a code stands for; empty without the column.
   std::string word(const char* column) const {
     const Column* found = study.find(table)->find(column);
-    return found ? label_text(*found, k) : "";
+    return found ? label_of(*found, k).value_or("") : "";
   }
 };
 

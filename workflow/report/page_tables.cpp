@@ -57,7 +57,7 @@ std::vector<std::size_t> every(std::size_t stride, std::size_t size) {
 Json page_labels(const Column& column, const std::vector<std::size_t>& rows) {
   Json labels = Json::array();
   for (const std::size_t row : rows) {
-    const std::string text = label_text(column, row);
+    const std::string text = label_of(column, row).value_or("");
     labels.push_back(text.empty() ? Json() : Json(text));
   }
   return labels;
@@ -149,12 +149,6 @@ Json charts_data(const std::vector<Observable>& observables) {
   for (const Observable& observable : observables)
     for (const Chart& chart : observable.charts) data.push_back(chart_data(observable, chart));
   return data;
-}
-
-std::string label_text(const Column& column, std::size_t row) {
-  const double code = column.value[row];
-  const bool is_known = code >= 0 && code < static_cast<double>(column.labels.size());
-  return is_known ? column.labels[static_cast<std::size_t>(code)] : "";
 }
 
 std::string density_text(double phi) {

@@ -30,9 +30,6 @@ Json table_data(const Table& table);
 /// For the script: the charts of all these tables, with all that a Chart says.
 Json charts_data(const std::vector<Observable>& observables);
 
-/// What a code stands for; empty if it is unknown.
-std::string label_text(const Column& column, std::size_t row);
-
 /// A packing fraction with two decimals if that is exact, else four: 0.50, 0.7125.
 std::string density_text(double phi);
 

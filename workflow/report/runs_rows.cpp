@@ -75,7 +75,7 @@ const Column* shown_seed(const Table& table) {
 
 std::string key_text(const Column& column, std::size_t row) {
   const double value = column.value[row];
-  if (!column.labels.empty()) return escaped(label_text(column, row));
+  if (!column.labels.empty()) return escaped(label_of(column, row).value_or(""));
   return column.name == "packing_fraction" ? density_text(value) : fmt::format("{:.6g}", value);
 }
 

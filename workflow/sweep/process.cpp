@@ -70,6 +70,12 @@ class HeldSignals {
 
 }  // namespace
 
+std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
+}
+
 ChildProcess::ChildProcess(const std::vector<std::string>& command,
                            const std::filesystem::path& output, const std::filesystem::path& log) {
   std::vector<char*> arguments;

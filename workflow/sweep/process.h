@@ -15,6 +15,9 @@ namespace vitrel {
 /// runs out, or the limit of processor time.
 inline constexpr std::array<int, 5> stop_signals = {SIGINT, SIGHUP, SIGTERM, SIGUSR1, SIGXCPU};
 
+/// One word of the shell: in single quotes it takes every character for itself.
+std::string shell_word(const std::string& text);
+
 /// A child process that does not outlive this one: if this process dies, however, the child is
 /// killed. Must be started from the thread that lives as long as the child is wanted.
 class ChildProcess {

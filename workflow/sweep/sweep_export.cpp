@@ -12,6 +12,7 @@
 #include "workflow/sweep/export/assets.h"
 #include "workflow/sweep/folder_lock.h"
 #include "workflow/sweep/job_folder.h"
+#include "workflow/sweep/process.h"
 
 namespace vitrel {
 namespace {
@@ -64,16 +65,9 @@ void write_snakemake(const SweepRequest& request, const std::vector<SweepJob>& j
                                                    {"predecessors", python(predecessors)}}));
 }
 
-/// One word of the shell.
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-  return word + "'";
-}
-
 void write_job_array(const SweepRequest& request, const std::vector<SweepJob>& jobs) {
   std::string words, tasks;
-  for (const std::string& word : settings(request.source)) words += quoted(word) + ' ';
+  for (const std::string& word : settings(request.source)) words += shell_word(word) + ' ';
   std::map<std::string, std::string> next;
   for (const SweepJob& job : jobs) next[job.predecessor] = job.id;
   std::size_t count = 0;
@@ -89,7 +83,7 @@ void write_job_array(const SweepRequest& request, const std::vector<SweepJob>& j
              filled(asset("sweep/export/job_array.sh"),
                     {{"last", fmt::format("{}", count - 1)},
                      {"limit", request.parallel > 0 ? fmt::format("%{}", request.parallel) : ""},
-                     {"program", quoted(request.program.string())},
+                     {"program", shell_word(request.program.string())},
                      {"settings", words},
                      {"tasks", tasks}}));
 }
