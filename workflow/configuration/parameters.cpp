@@ -306,12 +306,9 @@ std::string parameter_page() {
 
 Parameters recorded_parameters(const std::string& text, const std::string& name) {
   Parameters parameters = parse_parameters(text, name);
-  const auto is_recorded = [&](const char* key) {
-    return text.find(std::string("\n") + key + " = ") != std::string::npos;
-  };
-  if (parameters.system.dimension == 3 && !is_recorded("rotation"))
+  if (parameters.system.dimension == 3 && !place_of(parameters, "dynamics.rotation"))
     parameters.dynamics.rotation = FreeRotation::constant;
-  if (!is_recorded("draw")) parameters.system.draw = ShapeDraw::random;
+  if (!place_of(parameters, "system.draw")) parameters.system.draw = ShapeDraw::random;
   return parameters;
 }
 
