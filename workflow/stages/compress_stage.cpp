@@ -49,11 +49,9 @@ std::string CompressStage::description() const {
 StageReport CompressStage::advance(CompressionState& state, const StageContext& context) const {
   const CompressionOptions options{pressure, box, packing_fraction,
                                    packing_fraction ? max_sweeps : sweeps, context.threads};
-  return std::visit(
-      [&](auto* configuration) {
-        return compress(*configuration, options, context.seed, state, context.control);
-      },
-      context.configuration);
+  return context.with_configuration([&](auto& configuration) {
+    return compress(configuration, options, context.seed, state, context.control);
+  });
 }
 
 void CompressStage::record(const CompressionState& state, StageRecord& record) const {

@@ -29,9 +29,8 @@ std::vector<StageField<GrowStage>> GrowStage::fields() {
 StageReport GrowStage::advance(GrowthState& state, const StageContext& context) const {
   const GrowthOptions options{growth_rate, packing_fraction_goal(context.packing_fraction),
                               reduced_pressure, context.seed, retries};
-  return std::visit(
-      [&](auto* configuration) { return grow(*configuration, options, state, context.control); },
-      context.configuration);
+  return context.with_configuration(
+      [&](auto& configuration) { return grow(configuration, options, state, context.control); });
 }
 
 void GrowStage::record(const GrowthState& state, StageRecord& record) const {

@@ -32,9 +32,8 @@ StageReport HybridStage::advance(HybridState& state, const StageContext& context
   const HybridOptions options{
       growth_rate, packing_fraction_goal(context.packing_fraction), reduced_pressure,
       SamplingOptions{stretch_sweeps, moves, exchanges, context.threads}, context.seed};
-  return std::visit(
-      [&](auto* configuration) { return hybrid(*configuration, options, state, context.control); },
-      context.configuration);
+  return context.with_configuration(
+      [&](auto& configuration) { return hybrid(configuration, options, state, context.control); });
 }
 
 void HybridStage::record(const HybridState& state, StageRecord& record) const {

@@ -101,14 +101,11 @@ double InsertStage::default_packing_fraction(const SystemParameters& system) con
 
 StageReport InsertStage::advance(NoState&, const StageContext& context) const {
   const bool aligned = orientations == Orientations::aligned;
-  return std::visit(
-      [&]<int Dim>(Configuration<Dim>* configuration) {
-        return insert_particles(
-            *configuration,
-            {context.packing_fraction, attempts, aligned, tensor_numbers(*this, Dim)}, context.seed,
-            context.control);
-      },
-      context.configuration);
+  return context.with_configuration([&]<int Dim>(Configuration<Dim>& configuration) {
+    return insert_particles(
+        configuration, {context.packing_fraction, attempts, aligned, tensor_numbers(*this, Dim)},
+        context.seed, context.control);
+  });
 }
 
 }  // namespace vitrel

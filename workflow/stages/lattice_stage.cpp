@@ -50,12 +50,10 @@ void LatticeStage::validate(const Rules& rules, int dimension) const {
 }
 
 StageReport LatticeStage::advance(NoState&, const StageContext& context) const {
-  return std::visit(
-      [&](auto* configuration) {
-        if (packing_fraction) scale_to_packing_fraction(*configuration, context.packing_fraction);
-        return place_on_lattice(*configuration, {arrangement, angle}, context.seed);
-      },
-      context.configuration);
+  return context.with_configuration([&](auto& configuration) {
+    if (packing_fraction) scale_to_packing_fraction(configuration, context.packing_fraction);
+    return place_on_lattice(configuration, {arrangement, angle}, context.seed);
+  });
 }
 
 }  // namespace vitrel

@@ -45,11 +45,9 @@ std::string SampleStage::description() const {
 StageReport SampleStage::advance(SamplingState& state, const StageContext& context) const {
   const SamplingOptions options{decorrelations > 0 ? max_sweeps : sweeps, moves, exchanges,
                                 context.threads, decorrelations};
-  return std::visit(
-      [&](auto* configuration) {
-        return sample(*configuration, options, context.seed, state, context.control);
-      },
-      context.configuration);
+  return context.with_configuration([&](auto& configuration) {
+    return sample(configuration, options, context.seed, state, context.control);
+  });
 }
 
 void SampleStage::record(const SamplingState& state, StageRecord& record) const {

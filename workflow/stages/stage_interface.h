@@ -51,6 +51,11 @@ struct StageContext {
   std::uint64_t seed;
   int threads;  ///< of Monte Carlo; the result does not depend on their number
   const RunControl& control;
+
+  /// The result of `use` with the configuration of either dimension.
+  auto with_configuration(auto&& use) const {
+    return std::visit([&](auto* of_dimension) { return use(*of_dimension); }, configuration);
+  }
 };
 
 /// A key of a stage in the parameter file, with the keys that depend on its value.

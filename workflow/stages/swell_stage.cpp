@@ -14,11 +14,9 @@ std::vector<StageField<SwellStage>> SwellStage::fields() {
 
 StageReport SwellStage::advance(SwellingState& state, const StageContext& context) const {
   const SwellingOptions options{context.packing_fraction, max_sweeps, context.threads};
-  return std::visit(
-      [&](auto* configuration) {
-        return swell(*configuration, options, context.seed, state, context.control);
-      },
-      context.configuration);
+  return context.with_configuration([&](auto& configuration) {
+    return swell(configuration, options, context.seed, state, context.control);
+  });
 }
 
 void SwellStage::record(const SwellingState& state, StageRecord& record) const {
