@@ -104,36 +104,36 @@ std::optional<SpeciesConflict> composition_conflict(const std::vector<Species>& 
   return std::nullopt;
 }
 
+using Distributions = std::vector<std::pair<const char*, std::optional<Distribution>>>;
+
+/// Those that describe the shapes of a species, with their keys; always as many, in the same order.
+Distributions distributions_of(const Species& species) {
+  const auto entry = [](const auto& entries, std::size_t which) -> std::optional<Distribution> {
+    if (!entries || which >= entries->size()) return std::nullopt;
+    return (*entries)[which];
+  };
+  Distributions all = {{"aspect_ratio", species.aspect_ratio}};
+  for (std::size_t which = 0; which < 3; ++which) {
+    all.emplace_back("aspect_ratios", entry(species.aspect_ratios, which));
+    all.emplace_back("semi_axes", entry(species.semi_axes, which));
+  }
+  all.emplace_back("size", species.size);
+  all.emplace_back("first_semi_axis", species.first_semi_axis);
+  return all;
+}
+
 /// A distribution that differs from the one the particles were drawn from, though it would allow them.
 std::optional<SpeciesConflict> distribution_conflict(const std::vector<Species>& given,
                                                      const std::vector<Species>& recorded) {
   for (std::size_t k = 0; k < given.size(); ++k) {
-    const auto conflict =
-        [&](const char* key, const std::optional<Distribution>& one,
-            const std::optional<Distribution>& two) -> std::optional<SpeciesConflict> {
-      if (!one || one->kind == Distribution::Kind::constant || (two && same(*one, *two)))
-        return std::nullopt;
+    const Distributions wanted = distributions_of(given[k]), drawn = distributions_of(recorded[k]);
+    for (std::size_t n = 0; n < wanted.size(); ++n) {
+      const auto& [key, one] = wanted[n];
+      const std::optional<Distribution>& two = drawn[n].second;
+      if (!one || one->kind == Distribution::Kind::constant || (two && same(*one, *two))) continue;
       return SpeciesConflict{key_of(k, key), fmt::format("is {}, but the state was drawn from {}",
                                                          text(*one), two ? text(*two) : "another")};
-    };
-    const auto entry = [](const auto& entries, std::size_t which) -> std::optional<Distribution> {
-      if (!entries || which >= entries->size()) return std::nullopt;
-      return (*entries)[which];
-    };
-    if (auto found = conflict("aspect_ratio", given[k].aspect_ratio, recorded[k].aspect_ratio))
-      return found;
-    for (std::size_t which = 0; which < 3; ++which) {
-      if (auto found = conflict("aspect_ratios", entry(given[k].aspect_ratios, which),
-                                entry(recorded[k].aspect_ratios, which)))
-        return found;
-      if (auto found = conflict("semi_axes", entry(given[k].semi_axes, which),
-                                entry(recorded[k].semi_axes, which)))
-        return found;
     }
-    if (auto found = conflict("size", given[k].size, recorded[k].size)) return found;
-    if (auto found =
-            conflict("first_semi_axis", given[k].first_semi_axis, recorded[k].first_semi_axis))
-      return found;
   }
   return std::nullopt;
 }
