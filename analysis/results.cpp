@@ -144,21 +144,17 @@ void rename_former(Table& table) {
 }  // namespace
 
 const Column* Table::find(const std::string& column) const {
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& candidate) {
-    return candidate.name == column;
-  });
+  const auto found = std::ranges::find(columns, column, &Column::name);
   return found == columns.end() ? nullptr : &*found;
 }
 
 const Table* Results::find(const std::string& table) const {
-  const auto found = std::find_if(tables.begin(), tables.end(),
-                                  [&](const Table& candidate) { return candidate.name == table; });
+  const auto found = std::ranges::find(tables, table, &Table::name);
   return found == tables.end() ? nullptr : &*found;
 }
 
 std::string Results::text(const std::string& name) const {
-  const auto found = std::find_if(provenance.begin(), provenance.end(),
-                                  [&](const auto& candidate) { return candidate.first == name; });
+  const auto found = std::ranges::find(provenance, name, &decltype(provenance)::value_type::first);
   return found == provenance.end() ? "" : found->second;
 }
 

@@ -156,8 +156,7 @@ bool enough_points(const Slopes& slopes) {
 /// Where the window begins: m = 1, but not too near to either end.
 std::size_t first_point(const Slopes& slopes) {
   const MeanSquareCurve& m = slopes.curve();
-  const auto moved =
-      std::find_if(m.value.begin(), m.value.end(), [](double value) { return value >= 1; });
+  const auto moved = std::ranges::find_if(m.value, [](double value) { return value >= 1; });
   const double longest = m.time.back();
   const std::size_t begin =
       slopes.index(std::clamp(m.time[static_cast<std::size_t>(moved - m.value.begin())],

@@ -35,8 +35,8 @@ double step_of(const ScalarSeries& series, double duration) {
 }
 
 bool is_known(const ScalarSeries& series) {
-  return series.value.size() >= 2 && std::all_of(series.value.begin(), series.value.end(),
-                                                 [](double value) { return std::isfinite(value); });
+  return series.value.size() >= 2 &&
+         std::ranges::all_of(series.value, [](double value) { return std::isfinite(value); });
 }
 
 double correlation_time(const ScalarSeries& series, double duration) {
@@ -149,9 +149,8 @@ void compare_halves(const HalvesOfCurve& c, double slowest, std::vector<Comparis
     const double time = c.first.time[k];
     if (time < slowest / 2) return;
     if (time > next * (1 + 1e-9) || c.first.blocks[k] == 0) continue;
-    const auto same = std::find_if(c.second.time.begin(), c.second.time.end(), [&](double other) {
-      return std::abs(other - time) <= 1e-9 * time;
-    });
+    const auto same = std::ranges::find_if(
+        c.second.time, [&](double other) { return std::abs(other - time) <= 1e-9 * time; });
     if (same == c.second.time.end()) continue;
     const auto l = static_cast<std::size_t>(same - c.second.time.begin());
     if (c.second.blocks[l] == 0) continue;

@@ -68,8 +68,7 @@ Line straight_line(const Decay& c, std::size_t begin, std::size_t end) {
 
 RelaxationTime relaxation_time(const Decay& c) {
   check(c);
-  const auto below =
-      std::find_if(c.value.begin(), c.value.end(), [](double value) { return value <= level; });
+  const auto below = std::ranges::find_if(c.value, [](double value) { return value <= level; });
   if (below == c.value.end())
     return without(
         fmt::format("still {:.2g} at the longest time {:.4g}", c.value.back(), c.time.back()),

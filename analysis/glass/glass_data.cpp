@@ -12,7 +12,7 @@ constexpr double nematic_order_of_l = 2;  // the n of L_n that is judged
 
 /// Where L_2 of the first axis is among the orders; none if it was not measured.
 std::optional<std::size_t> index_of_l_2(const Displacements& found) {
-  const auto order = std::find(found.orders.begin(), found.orders.end(), nematic_order_of_l);
+  const auto order = std::ranges::find(found.orders, nematic_order_of_l);
   const auto index = static_cast<std::size_t>(order - found.orders.begin());
   if (index >= found.groups.front().orientation.size()) return std::nullopt;
   return index;

@@ -106,8 +106,8 @@ GlassStudy study_glass(std::vector<GlassRun> runs, std::string mixed) {
     return study;
   }
   for (const GlassKind kind : glass_kinds) {
-    const bool applied = std::any_of(study.runs.begin(), study.runs.end(),
-                                     [kind](const GlassRun& run) { return applies(kind, run); });
+    const bool applied =
+        std::ranges::any_of(study.runs, [kind](const GlassRun& run) { return applies(kind, run); });
     if (!applied) continue;
     for (const GlassLaw law : {GlassLaw::mode_coupling, GlassLaw::vogel_fulcher})
       study.laws.push_back(studied_law(kind, law, study.runs));

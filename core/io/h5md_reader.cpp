@@ -514,7 +514,7 @@ std::vector<std::string> TrajectoryReader::observable_names() const {
 
 bool TrajectoryReader::has_observable(const std::string& name) const {
   const std::vector<std::string> names = observable_names();
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return std::ranges::find(names, name) != names.end();
 }
 
 std::vector<double> TrajectoryReader::observable(const std::string& name) const {

@@ -16,7 +16,7 @@ std::string join(const std::string& path, const std::string& key) {
 }
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
+  return std::ranges::find(words, word) != words.end();
 }
 
 std::string called(const TomlNode& node) {
@@ -121,7 +121,7 @@ class Reader final : public FieldVisitor {
     if (!read)
       wrong_type(*node, field, fmt::format("one of the strings \"{}\"", fmt::join(known, "\", \"")),
                  to_toml(std::string_view(known.at(std::min(index, known.size() - 1)))));
-    const auto found = std::find(known.begin(), known.end(), *read);
+    const auto found = std::ranges::find(known, *read);
     if (found == known.end())
       throw UserError(fmt::format("{}: key '{}' is \"{}\", but must be one of \"{}\"{}",
                                   node->where, join(path_, field.key), *read,

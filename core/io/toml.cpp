@@ -72,7 +72,7 @@ std::optional<std::size_t> as_index(std::string_view part) {
 /// A word, or a number with a unit; beyond ASCII may be any letter.
 bool is_bare_text(std::string_view text) {
   constexpr std::string_view marks = "_-+./^ ";
-  return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
+  return !text.empty() && std::ranges::all_of(text, [&](char c) {
     const auto code = static_cast<unsigned char>(c);
     return std::isalnum(code) || code >= 0x80 || marks.find(c) < marks.size();
   });
@@ -249,7 +249,7 @@ std::string to_toml(std::string_view text) {
 }
 
 std::string toml_key(std::string_view key) {
-  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+  const bool bare = !key.empty() && std::ranges::all_of(key, [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
   });
   return bare ? std::string(key) : to_toml(key);

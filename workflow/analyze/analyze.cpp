@@ -324,9 +324,8 @@ std::vector<std::string> former_tables(const std::filesystem::path& file) {
     // no file of ours
   }
   // Correlations on the fly are tables in such a file, too, but nothing can make them again.
-  const bool is_analysis = std::any_of(tables.begin(), tables.end(), [](const std::string& name) {
-    return name == "summary" || name == "runs";
-  });
+  const bool is_analysis = std::ranges::any_of(
+      tables, [](const std::string& name) { return name == "summary" || name == "runs"; });
   if (!is_analysis)
     throw UserError(file.string() +
                     ": exists and holds no results of vitrel analyze, which are all that it "

@@ -77,7 +77,7 @@ std::string text_of(const PageProvenance& provenance, std::size_t k) {
 
 /// Whether the k-th text is the same for all runs.
 bool is_shared(const std::vector<ReportRun>& runs, std::size_t k) {
-  return std::all_of(runs.begin(), runs.end(), [&](const ReportRun& run) {
+  return std::ranges::all_of(runs, [&](const ReportRun& run) {
     return text_of(run.provenance, k) == text_of(runs.front().provenance, k);
   });
 }

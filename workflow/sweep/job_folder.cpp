@@ -212,8 +212,7 @@ Figures job_figures(const Json& done) {
 }
 
 double figure(const Figures& figures, const std::string& name) {
-  const auto found = std::find_if(figures.begin(), figures.end(),
-                                  [&](const auto& pair) { return pair.first == name; });
+  const auto found = std::ranges::find(figures, name, &Figures::value_type::first);
   return found == figures.end() ? unknown : found->second;
 }
 

@@ -16,9 +16,9 @@ namespace {
 // A preparation or a run saves its state and ends with 5; an analysis has nothing to save, and a
 // signal just ends it.
 bool is_stop(int exit_code) {
-  return exit_code == 5 ||
-         std::any_of(stop_signals.begin(), stop_signals.end(),
-                     [exit_code](int number) { return exit_code == 128 + number; });
+  return exit_code == 5 || std::ranges::any_of(stop_signals, [exit_code](int number) {
+           return exit_code == 128 + number;
+         });
 }
 
 }  // namespace

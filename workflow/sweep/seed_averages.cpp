@@ -27,8 +27,7 @@ std::vector<Replicates> grouped(const std::vector<JobResult>& jobs) {
   for (const JobResult& job : jobs) {
     SweptValues values = job.values;
     std::erase_if(values, [](const auto& pair) { return pair.first == seed_key; });
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const Replicates& other) { return other.values == values; });
+    auto group = std::ranges::find(groups, values, &Replicates::values);
     if (group == groups.end()) group = groups.insert(group, {std::move(values), job.published, {}});
     group->jobs.push_back(&job.figures);
   }
@@ -62,9 +61,7 @@ std::string SeedAverage::name() const {
 }
 
 AveragedFigure SeedAverage::find(const std::string& name) const {
-  const auto found =
-      std::find_if(figures.begin(), figures.end(),
-                   [&](const AveragedFigure& figure) { return figure.name == name; });
+  const auto found = std::ranges::find(figures, name, &AveragedFigure::name);
   return found == figures.end() ? AveragedFigure{name, unknown, unknown, unknown, unknown, false}
                                 : *found;
 }
@@ -81,8 +78,7 @@ std::vector<SeedAverage> seed_averages(const std::vector<JobResult>& jobs) {
 }
 
 bool has_seeds(const SweptValues& values) {
-  return std::any_of(values.begin(), values.end(),
-                     [](const auto& pair) { return pair.first == seed_key; });
+  return std::ranges::any_of(values, [](const auto& pair) { return pair.first == seed_key; });
 }
 
 }  // namespace vitrel

@@ -116,8 +116,8 @@ void refuse_overridden_keys(const std::vector<Axis>& axes, const StudyLayout& la
   for (const Axis& axis : axes)
     for (const auto& [key, value] : axis.front()) {
       const bool is_seed = key == "system.seed" && source.seed;
-      const auto set = std::find_if(
-          source.overrides.begin(), source.overrides.end(),
+      const auto set = std::ranges::find_if(
+          source.overrides,
           [start = key + "="](const std::string& text) { return text.starts_with(start); });
       if (is_seed || set != source.overrides.end())
         throw UserError(fmt::format(
@@ -190,7 +190,7 @@ bool takes_wave_number(const SweepJob& job) {
 void share_wave_number(std::vector<SweepJob>& jobs) {
   std::set<double> densities;
   for (const SweepJob& job : jobs) densities.insert(job.parameters.system.packing_fraction);
-  if (densities.size() < 2 || !std::all_of(jobs.begin(), jobs.end(), takes_wave_number)) return;
+  if (densities.size() < 2 || !std::ranges::all_of(jobs, takes_wave_number)) return;
   double wave_number = 0;
   for (const SweepJob& job : jobs)
     wave_number = std::max(wave_number, wave_number_of(job.parameters));

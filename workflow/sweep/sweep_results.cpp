@@ -160,8 +160,7 @@ constexpr Quantity of_run[] = {{"overlaps", "1"},
 
 /// Adds to the summary of the analysis what it does not have or does not know.
 void add_figures(const Json& job, std::span<const Quantity> quantities, Results& results) {
-  auto summary = std::find_if(results.tables.begin(), results.tables.end(),
-                              [](const Table& table) { return table.name == "summary"; });
+  auto summary = std::ranges::find(results.tables, "summary", &Table::name);
   if (summary == results.tables.end())
     summary = results.tables.insert(summary, {"summary", "The prepared state.", {}});
   for (const auto& [name, unit] : quantities) {

@@ -10,7 +10,7 @@ namespace {
 /// In characters, not bytes.
 std::size_t width_of(const std::string& utf8) {
   return static_cast<std::size_t>(
-      std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+      std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 }  // namespace
