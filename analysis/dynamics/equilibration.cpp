@@ -192,8 +192,7 @@ std::string shortage(const RunEvidence& run, const std::vector<double>& of_serie
     reason = shortage(run.series[k], of_series[k], run.duration);
   if (reason.empty() && !untested.empty())
     reason = fmt::format(
-        "too little to test {} for ageing: it takes {} blocks "
-        "of twice the slowest time, {:.4g}",
+        "too little to test {} for ageing: it takes {} blocks of twice the slowest time, {:.4g}",
         untested, min_blocks, slowest);
   return reason;
 }

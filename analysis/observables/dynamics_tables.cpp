@@ -177,8 +177,7 @@ Observable rotation_observable(int dimension) {
   if (dimension == 2) return observable;
   observable.what =
       "Orientational correlations <P_n(u(0).u(t))> of the axis of symmetry; of scalene bodies "
-      "those "
-      "of all three axes.";
+      "those of all three axes.";
   Chart& chart = observable.charts.front();
   chart.symbol = "⟨Pₗ(u(0)·u(t))⟩";
   chart.curves = {

@@ -88,8 +88,7 @@ std::vector<std::string> order_or_glass(const GlassStudy& study) {
     });
   };
   say("Nematic order, not glass, keeps orientations at {}: seen from the director, L_2 decays to "
-      "the "
-      "plateau that order gives it.",
+      "the plateau that order gives it.",
       ordered(true));
   say("So it seems at {}, where a run was not in equilibrium or too short to tell.",
       ordered(false));

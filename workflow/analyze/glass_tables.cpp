@@ -52,12 +52,11 @@ Table relaxation_table(const GlassStudy& study) {
   Table table{
       "relaxation",
       "Relaxation times, one row per run. tau_translation: F_s = 1/e at wave_number, in the plane "
-      "relative to the cage; tau_rotation: "
-      "L_2 = 1/e (P_2 in three dimensions), in a nematic its connected part, seen from the "
-      "director. verdict: from so many tests; verdict_translation: whatever rotation does; only "
-      "equilibrated runs enter the fits, of translation by the latter. nematic_order: S, beside "
-      "that of as many rotors without order; plateau: of L_2 by order, 0 if not nematic; "
-      "orientation: what becomes of it.",
+      "relative to the cage; tau_rotation: L_2 = 1/e (P_2 in three dimensions), in a nematic its "
+      "connected part, seen from the director. verdict: from so many tests; verdict_translation: "
+      "whatever rotation does; only equilibrated runs enter the fits, of translation by the "
+      "latter. nematic_order: S, beside that of as many rotors without order; plateau: of L_2 by "
+      "order, 0 if not nematic; orientation: what becomes of it.",
       {{"run", "1"},
        {"packing_fraction", "1"},
        {"seed", "1"},
@@ -93,11 +92,10 @@ Table fit_table(const GlassStudy& study) {
   Table table{
       "glass_fit",
       fmt::format(
-          "Laws of the glass transition. {}. law: power law tau = A (phi_c - "
-          "phi)^-s, Vogel-Fulcher tau = "
-          "A exp(s phi/(phi_c - phi)). phi_c is above phi_c_least, and s below exponent_most, "
-          "with a probability of 95 %; window: the largest in which the law fits, and its "
-          "fit.",
+          "Laws of the glass transition. {}. law: power law tau = A (phi_c - phi)^-s, "
+          "Vogel-Fulcher tau = A exp(s phi/(phi_c - phi)). phi_c is above phi_c_least, and s below "
+          "exponent_most, with a probability of 95 %; window: the largest in which the law fits, "
+          "and its fit.",
           kinds_text),
       {codes("kind", kind_names),
        codes("law", law_names),

@@ -18,9 +18,8 @@ Table empty_table() {
       "Relaxation times tau, when a correlation has fallen to 1/e. kind: F_s(q, t), or L_n(t), in "
       "three dimensions P_n of the axis of symmetry, of scalene bodies of the longest and of the "
       "middle and the shortest axis; F_s of the motion relative to the cage is that of "
-      "cage_relative; "
-      "parameter: its q or n. Without tau: a time that it "
-      "outlives (least) or by which it has decayed (most), and the reason in the provenance.",
+      "cage_relative; parameter: its q or n. Without tau: a time that it outlives (least) or by "
+      "which it has decayed (most), and the reason in the provenance.",
       {{"group", "1"},
        {"kind",
         "1",

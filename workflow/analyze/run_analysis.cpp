@@ -203,8 +203,7 @@ RunAnalysis run_analysis(TrajectoryFile<Dim>& trajectory, const std::string& nam
       time_axis_of_motion(trajectory).empty())
     run.obstacle =
         "between any two frames some particle moved by more than a quarter of a box length, so "
-        "that "
-        "its box crossings are in doubt";
+        "that its box crossings are in doubt";
   if (run.obstacle.empty() && wants_motion(wanted))
     run.dynamics = measure_dynamics(trajectory, parameters.analysis, wanted, progress);
   if (run.obstacle.empty()) run.motion = measure_motion(trajectory, parameters, wanted, progress);

@@ -39,8 +39,7 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
   visit.field({"max_origins", "",
                "Maximum number of time origins per time difference; if there are more, they are "
                "thinned evenly, of many particles to 2²¹ origins of all particles together, but "
-               "not to less than a quarter "
-               "of this number.",
+               "not to less than a quarter of this number.",
                bounds::at_least_one, "most_origins"},
               p.axis.max_origins);
   visit.field(

@@ -70,10 +70,9 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
               p.velocities);
   visit.field({"precision", "",
                "Of the positions, angles and velocities that are written. In single precision the "
-               "trajectory has about "
-               "half the size and serves to be looked at and analysed; particles that touch may "
-               "overlap in it by "
-               "rounding. The run itself, and its checkpoint, are not rounded."},
+               "trajectory has about half the size and serves to be looked at and analysed; "
+               "particles that touch may overlap in it by rounding. The run itself, and its "
+               "checkpoint, are not rounded."},
               p.precision, precision_names);
   const Field correlations{
       "correlations", "",

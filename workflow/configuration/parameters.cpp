@@ -197,8 +197,7 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
                      "values of all keys make a job, the second values the next, and so on. "
                      "Together with a grid, each of these jobs is combined with every job of the "
                      "grid. Jobs are named after the keys of the grid and the first of these keys, "
-                     "or as "
-                     "many as it takes to tell the jobs apart."},
+                     "or as many as it takes to tell the jobs apart."},
                     p.sweep.together);
             in.list({"published", "",
                      "Results of a publication, which tables and charts of the sweep show beside "

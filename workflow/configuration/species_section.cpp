@@ -149,9 +149,8 @@ void describe_species(Species& p, FieldVisitor& visit) {
   const Field axes{
       "semi_axes", "length",
       "Instead of aspect ratios and size: semi-axes [a, b] with a ≥ b, or [a, b, c] in any order "
-      "in "
-      "three dimensions, each a number or a distribution like that of aspect_ratio. In the plane "
-      "the larger of two draws is a."};
+      "in three dimensions, each a number or a distribution like that of aspect_ratio. In the "
+      "plane the larger of two draws is a."};
   visit.optional(axes, p.semi_axes, std::vector{example_of(2), example_of(0.5)},
                  [&](FieldVisitor& in, std::vector<Distribution>& inner) {
                    describe_distributions(axes, inner, in);

@@ -27,8 +27,7 @@ std::string cooling_section(const Cooling& cooling, const std::optional<HaffLaw>
                 "fallen to T(0)/e. It holds as long as the gas is homogeneous.",
                 formula, law->time, page_units(dimension).time)
           : formula +
-                " is not drawn: T does not fall to T(0)/e in this run, too little for a fit "
-                "of τ.";
+                " is not drawn: T does not fall to T(0)/e in this run, too little for a fit of τ.";
   return filled(asset("page/cooling.html"),
                 {{"text", fmt::format("Granular temperature T = 2 E<sub>trans</sub>/({} N). {} The "
                                       "exponent is {} because {}.",

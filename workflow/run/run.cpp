@@ -238,8 +238,7 @@ class RunJob {
     const auto collisions = static_cast<double>(c.collisions);
     warn(static_cast<double>(c.blocked_rotations), collisions,
          "of the collisions were those of hard particles, because neighbours blocked the rotation "
-         "of the pair "
-         "(blocked_rotations): the contacts are too long, or the system too dense, for "
+         "of the pair (blocked_rotations): the contacts are too long, or the system too dense, for "
          "event-driven dynamics");
     warn(static_cast<double>(c.early_releases), collisions,
          "of the collisions ended before their time, because a third particle hit "

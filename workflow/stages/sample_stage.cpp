@@ -12,10 +12,9 @@ namespace {
 void describe_decorrelations(SampleStage& stage, FieldVisitor& visit) {
   visit.field(
       {"decorrelations", "",
-       "If above 0, sampling goes on until the state has decorrelated this often: until "
-       "places, orientations and sizes, each place by place, have fallen to 1/e, again and "
-       "again. From 10 on, the analysis of a run that starts from the state takes it for one in "
-       "equilibrium."},
+       "If above 0, sampling goes on until the state has decorrelated this often: until places, "
+       "orientations and sizes, each place by place, have fallen to 1/e, again and again. From 10 "
+       "on, the analysis of a run that starts from the state takes it for one in equilibrium."},
       stage.decorrelations);
 }
 

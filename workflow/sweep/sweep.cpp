@@ -58,8 +58,7 @@ class Sweep {
     const std::string& predecessor = jobs_.front().predecessor;
     if (!is_done(predecessor))
       throw UserError(
-          fmt::format("{}: starts from the end of the job {}, which is not done; run "
-                      "that first",
+          fmt::format("{}: starts from the end of the job {}, which is not done; run that first",
                       jobs_.front().id, predecessor));
     make_folder(folder);
     FolderLock sweep(request_.folder), job(folder);

@@ -121,9 +121,8 @@ void refuse_overridden_keys(const std::vector<Axis>& axes, const StudyLayout& la
           [start = key + "="](const std::string& text) { return text.starts_with(start); });
       if (is_seed || set != source.overrides.end())
         throw UserError(fmt::format(
-            "{}: '{}' runs through the values of the sweep, so that {} has no effect; "
-            "leave out one of the two, or set the values: --set "
-            "'sweep.{}.{}=[{}]'",
+            "{}: '{}' runs through the values of the sweep, so that {} has no effect; leave out "
+            "one of the two, or set the values: --set 'sweep.{}.{}=[{}]'",
             source.file.string(), key, is_seed ? "--seed" : "--set " + *set,
             std::ranges::count(layout.together, key) > 0 ? "together" : "grid", key, value));
     }

@@ -72,8 +72,7 @@ std::string sweep_plan(const std::vector<SweepJob>& jobs, const std::filesystem:
   const int at_a_time = std::max(parallel, 1);
   return text_table(rows, 2) + fmt::format(
                                    "{} jobs; what is left is expected to take {}{:.2g} s with {} "
-                                   "job{} at a time, and {:.3g} MB on "
-                                   "disk\n",
+                                   "job{} at a time, and {:.3g} MB on disk\n",
                                    jobs.size(), is_foreseen ? "" : "more than ", left / at_a_time,
                                    at_a_time, at_a_time == 1 ? "" : "s", disk / 1e6);
 }

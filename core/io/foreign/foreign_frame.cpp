@@ -193,8 +193,7 @@ void set_positions(Configuration<Dim>& configuration, const ForeignFrame& frame,
   if (Dim == 2 && !(height_range(positions) <= flat_range(frame, known)))
     throw UserError(
         fmt::format("the system is two-dimensional, but the z of its particles differ by {:.3g}; "
-                    "in a plane all "
-                    "are the same",
+                    "in a plane all are the same",
                     height_range(positions)));
 }
 

@@ -50,8 +50,7 @@ void NearestImages<Dim>::compare_with_flight(const Configuration<Dim>& next, std
   if (((flight - step).cwiseAbs() - 0.5 * next.box.lengths()).maxCoeff() > 0)
     throw UserError(fmt::format(
         "particle {} has the same velocity as in the frame before and flew by ({}), but its "
-        "nearest "
-        "image moved by ({}); unwrap = \"nearest\" does not hold for frames so far apart",
+        "nearest image moved by ({}); unwrap = \"nearest\" does not hold for frames so far apart",
         i, fmt::join(flight, ", "), fmt::join(step, ", ")));
 }
 
