@@ -91,15 +91,13 @@ struct PrepareOptions {
   std::string command_line;  ///< for the provenance
 };
 
+using RunOptions = PrepareOptions;
+
 struct ReportOptions {
   PrintOptions print;
   AnalysisOptions analysis;
   std::filesystem::path input;   ///< state, run, or folder of a job or a sweep
   std::filesystem::path output;  ///< empty: beside the input
-};
-
-struct RunOptions : PrepareOptions {
-  bool dry_run = false;  ///< print what would be done
 };
 
 struct SweepOptions {
