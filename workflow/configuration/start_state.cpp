@@ -79,10 +79,6 @@ void refuse_overlaps(const Configuration<Dim>& state, const std::string& file) {
       contact_scale(state, *deepest)));
 }
 
-}  // namespace
-
-namespace {
-
 /// Those of the [[species]], which are in the unit of the results.
 std::vector<KnownSpecies> known_species(const Parameters& parameters) {
   std::vector<KnownSpecies> known;
