@@ -13,7 +13,7 @@
 #include "workflow/prepare/packing_quality.h"
 #include "workflow/prepare/preparation_plan.h"
 #include "workflow/prepare/prepare.h"
-#include "workflow/prepare/quality_file.h"
+#include "workflow/prepare/quality.h"
 #include "workflow/storage/work_timer.h"
 
 namespace vitrel {

@@ -14,7 +14,7 @@
 #include "tests/support/scenes.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/prepare/packing_quality.h"
-#include "workflow/prepare/quality_file.h"
+#include "workflow/prepare/quality.h"
 #include "workflow/report/run_report.h"
 
 namespace vitrel {

@@ -1,4 +1,4 @@
-#include "workflow/prepare/quality_file.h"
+#include "workflow/prepare/quality.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 
 #include "core/io/h5md.h"
 #include "workflow/prepare/packing_quality.h"
-#include "workflow/prepare/quality_file.h"
+#include "workflow/prepare/quality.h"
 #include "workflow/report/run_report.h"
 
 namespace vitrel {

@@ -6,7 +6,7 @@
 #include "core/io/h5md.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/configuration/parameters.h"
-#include "workflow/prepare/quality_file.h"
+#include "workflow/prepare/quality.h"
 #include "workflow/report/run_report.h"
 
 namespace vitrel {
