@@ -9,8 +9,6 @@ namespace {
 // Ellipse types, each of which the engine treats differently.
 struct SearchedEllipse : Ellipse {};
 struct UnlimitedEllipse : Ellipse {};
-struct WindowedEllipse : Ellipse {};
-thread_local double search_window = 1;  // in mean free times
 
 struct RoundListedEllipse : Ellipse {
   RoundListedEllipse() = default;
@@ -28,8 +26,6 @@ template <>
 struct ShapeOf<bench::SearchedEllipse> : ShapeOf<Ellipse> {};
 template <>
 struct ShapeOf<bench::UnlimitedEllipse> : ShapeOf<Ellipse> {};
-template <>
-struct ShapeOf<bench::WindowedEllipse> : ShapeOf<Ellipse> {};
 
 template <>
 class ContactScreen<bench::SearchedEllipse> : public bench::NoLowerBound<bench::SearchedEllipse> {
@@ -39,12 +35,6 @@ class ContactScreen<bench::SearchedEllipse> : public bench::NoLowerBound<bench::
 
 template <>
 class ContactScreen<bench::UnlimitedEllipse> : public ContactScreen<Ellipse> {
- public:
-  using ContactScreen<Ellipse>::ContactScreen;
-};
-
-template <>
-class ContactScreen<bench::WindowedEllipse> : public ContactScreen<Ellipse> {
  public:
   using ContactScreen<Ellipse>::ContactScreen;
 };
@@ -109,15 +99,6 @@ void NeighborBatch<bench::UnlimitedEllipse, ContactScreen<bench::UnlimitedEllips
   }
 }
 
-template <>
-double ContactPredictor<bench::WindowedEllipse>::mean_free_time() const {
-  const auto particles = static_cast<double>(state_.size());
-  const double free_time = state_.collisions < particles
-                               ? State::never
-                               : 0.5 * particles * state_.now / state_.collisions;
-  return bench::search_window * free_time;
-}
-
 }  // namespace vitrel
 
 namespace vitrel::bench {
@@ -149,13 +130,6 @@ Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
                                {screened_until, warm_start.axis});
 }
 
-Prediction2 first_contact(const Flight<WindowedEllipse>& one, const Flight<WindowedEllipse>& two,
-                          double horizon, double contact_gap, double screened_until,
-                          const WarmStart<Ellipse>& warm_start) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap,
-                               {screened_until, warm_start.axis});
-}
-
 }  // namespace
 
 std::unique_ptr<Engine2> make_engine_without_lower_bound() {
@@ -167,13 +141,6 @@ std::unique_ptr<Engine2> make_engine_without_horizon() {
 }
 std::unique_ptr<Engine2> make_engine_with_round_lists() {
   return std::make_unique<Simulation<RoundListedEllipse>>(EngineOptions{}, "with round lists");
-}
-std::unique_ptr<Engine2> make_engine_with_search_window() {
-  return std::make_unique<Simulation<WindowedEllipse>>(EngineOptions{},
-                                                       "with another search window");
-}
-void set_search_window(double mean_free_times) {
-  search_window = mean_free_times;
 }
 
 }  // namespace vitrel::bench

@@ -20,10 +20,4 @@ std::unique_ptr<Engine2> make_engine_without_horizon();
 /// translation.
 std::unique_ptr<Engine2> make_engine_with_round_lists();
 
-/// With another search window: a contact that cannot occur within this number of mean free times is not searched yet.
-/// With an infinite window every contact that could come first is searched. The window is that of the current thread
-/// at the time of the prediction.
-std::unique_ptr<Engine2> make_engine_with_search_window();
-void set_search_window(double mean_free_times);
-
 }  // namespace vitrel::bench

@@ -46,7 +46,7 @@ RegularPolygon::RegularPolygon(int vertices) {
     half_.emplace_back(radius * std::cos(k * step), radius * std::sin(k * step));
 }
 
-bool disjoint(const RegularPolygon& shape, const OverlapCase& asked) {
+bool disjoint(const RegularPolygon& shape, const OverlapCase<2>& asked) {
   const HalfPolygon one = image(shape, asked.one, asked.pose1.angle);
   const HalfPolygon two = image(shape, asked.two, asked.pose2.angle);
   const Vec2 d = asked.between_centres();

@@ -23,6 +23,6 @@ class RegularPolygon {
 /// Replaces both ellipses by images of the polygon and looks for a separating axis among the normals
 /// of all sides: two convex polygons are disjoint iff one of these separates them. The time grows
 /// as the square of the number of vertices.
-bool disjoint(const RegularPolygon& shape, const OverlapCase& asked);
+bool disjoint(const RegularPolygon& shape, const OverlapCase<2>& asked);
 
 }  // namespace vitrel::bench

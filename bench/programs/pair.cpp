@@ -7,9 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/terminal/exit_codes.h"
+#include "app/terminal/session.h"
 #include "bench/methods/ellipsoids/methods.h"
-#include "bench/programs/number_text.h"
-#include "bench/surveys/choice.h"
+#include "bench/studies/choice.h"
+#include "bench/studies/tables.h"
 #include "bench/surveys/timed_batches.h"
 #include "core/io/json.h"
 #include "workflow/pair/pair.h"
@@ -124,7 +125,10 @@ int pair(const PairMethodsOptions& options, const OutputOptions& output) {
   const std::vector<Answer> found = parameters.dimension() == 2
                                         ? answers(pair_of<2>(parameters), options.methods)
                                         : answers(pair_of<3>(parameters), options.methods);
-  Report(output).print(rows_json(found), rows_text(found));
+  if (output.json)
+    print_text(json_text({{"rows", rows_json(found)}}, 2) + '\n');
+  else if (!output.quiet)
+    print_text(rows_text(found));
   return success;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/programs/report.h"
+#include "bench/studies/runner.h"
 
 namespace vitrel::bench {
 

@@ -25,6 +25,26 @@ inline double signed_log_uniform(Stream& draw, double low, double high) {
   return of_sign * log_uniform(draw, low, high);
 }
 
+/// kT = 1 and mass 1.
+inline Vec3 thermal_vector(Stream& draw) {
+  const double x = draw.normal(), y = draw.normal();
+  return {x, y, draw.normal()};
+}
+inline Vec3 any_direction(Stream& draw) {
+  return thermal_vector(draw).normalized();
+}
+inline Quaternion any_orientation(Stream& draw) {
+  const Vec3 v = thermal_vector(draw);
+  return Quaternion(draw.normal(), v.x(), v.y(), v.z()).normalized();
+}
+
+/// Of unit a b c.
+inline Ellipsoid any_shape(Stream& draw, double kappa) {
+  const double kind = draw.uniform();
+  const double middle = kind < 0.25 ? 1 : kind < 0.5 ? kappa : log_uniform(draw, 1, kappa);
+  return {Vec3(kappa, middle, 1) / std::cbrt(kappa * middle)};
+}
+
 /// FNV-1a, so that a class keeps its cases whatever classes stand beside it.
 template <int Dim>
 std::uint64_t key_of(const CaseClassOf<Dim>& of) {

@@ -13,26 +13,6 @@ namespace {
 
 using Solid = Flight<GrowingEllipsoid>;
 
-// kT = 1 and mass 1.
-Vec3 thermal_vector(Stream& draw) {
-  const double x = draw.normal(), y = draw.normal();
-  return {x, y, draw.normal()};
-}
-Vec3 any_direction(Stream& draw) {
-  return thermal_vector(draw).normalized();
-}
-Quaternion any_orientation(Stream& draw) {
-  const Vec3 v = thermal_vector(draw);
-  return Quaternion(draw.normal(), v.x(), v.y(), v.z()).normalized();
-}
-
-/// Of unit a b c.
-Ellipsoid any_shape(Stream& draw, double kappa) {
-  const double kind = draw.uniform();
-  const double middle = kind < 0.25 ? 1 : kind < 0.5 ? kappa : log_uniform(draw, 1, kappa);
-  return {Vec3(kappa, middle, 1) / std::cbrt(kappa * middle)};
-}
-
 Vec3 thermal_turning(Stream& draw, const Ellipsoid& shape, const Quaternion& orientation) {
   return orientation * thermal_vector(draw).cwiseQuotient(shape.inertia_per_mass().cwiseSqrt());
 }

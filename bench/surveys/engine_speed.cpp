@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <string>
 
 #include "bench/methods/collision_case.h"
-#include "core/contact/ellipse_gap.h"
-#include "core/contact/ellipse_vieillard_baron.h"
 #include "core/error.h"
 #include "core/random/stream.h"
 #include "edmd/brownian.h"
@@ -118,91 +114,12 @@ Work TimedRun<Dim>::blocks(double min_seconds) {
   return work;
 }
 
-template <int Dim>
-Work TimedRun<Dim>::parts(double seconds, double first_collisions,
-                          double enough_collisions) requires(Dim == 2) {
-  Work work;
-  const double start_time = now_.time, start = processor_seconds();
-  double length = first_collisions / expected_collision_rate(now_);
-  double before = 0;
-  engine_->load(now_);
-  do {
-    before = work.seconds;
-    const double until = now_.time + length;
-    while (engine_->advance(until, work.counters) == Engine2::Stop::block_end) {
-      engine_->write(now_);
-      engine_->load(now_);
-      if (work.counters.collisions > 0 && processor_seconds() - start > seconds) break;
-    }
-    engine_->write(now_);
-    work.seconds = processor_seconds() - start;
-    length *= 2;
-  } while (work.counters.collisions == 0 ||
-           (static_cast<double>(work.counters.collisions) < enough_collisions &&
-            3 * work.seconds - 2 * before < seconds));
-  work.simulated_time = now_.time - start_time;
-  return work;
-}
-
 template class TimedRun<2>;
-template TimedRun<3>::TimedRun(std::unique_ptr<Engine<3>>, Configuration<3>);
-template Work TimedRun<3>::blocks(double);
-
-double expected_collision_rate(const Configuration2& c) {
-  // N/2 · 4 (Z − 1)/σ · √(kT/(π m)) with σ = 2, and Z − 1 = 2 φ g(σ).
-  const double phi = packing_fraction(c);
-  const double excess = 2 * phi * (1 - 7 * phi / 16) / ((1 - phi) * (1 - phi));
-  return static_cast<double>(c.size()) * excess / std::sqrt(std::numbers::pi);
-}
-
-double ns_per_psi(double seconds) {
-  struct Pair {
-    double angle1, angle2;
-    Vec2 d;
-  };
-  constexpr std::size_t pairs = 1000;
-  const Ellipse shape = of_unit_area(2);
-  std::vector<Pair> asked;
-  Stream draw(1, Purpose::benchmark_cases);
-  const auto angle = [&] { return draw.uniform(0, 2 * std::numbers::pi); };
-  for (std::size_t k = 0; k < pairs; ++k) {
-    const double distance = draw.uniform(1.5, 3);
-    asked.push_back({angle(), angle(), distance * direction(angle())});
-  }
-  double best = std::numeric_limits<double>::infinity(), sum = 0;
-  for (const double begin = processor_seconds(); processor_seconds() - begin < seconds;) {
-    constexpr int passes = 20;
-    const double start = processor_seconds();
-    for (int pass = 0; pass < passes; ++pass)
-      for (const Pair& pair : asked)
-        sum += vieillard_baron(shape, pair.angle1, shape, pair.angle2, pair.d).psi;
-    best = std::min(best, (processor_seconds() - start) / (passes * pairs));
-  }
-  if (!std::isfinite(sum)) throw InvariantError("a contact function that is not a number");
-  return 1e9 * best;
-}
+template class TimedRun<3>;
 
 std::size_t allocated_bytes() {
   const struct mallinfo2 info = mallinfo2();
   return info.uordblks + info.hblkhd;
-}
-
-std::size_t peak_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;)
-    if (word == "VmHWM:") {
-      std::size_t kilobytes = 0;
-      status >> kilobytes;
-      return 1024 * kilobytes;
-    }
-  return 0;
-}
-
-bool forget_peak() {
-  malloc_trim(0);
-  std::ofstream file("/proc/self/clear_refs");
-  file << 5 << std::flush;
-  return file.good();
 }
 
 }  // namespace vitrel::bench

@@ -56,10 +56,6 @@ class TimedRun {
   /// many seconds.
   Work blocks(double min_seconds);
 
-  /// For an engine whose blocks take long: ever longer parts of them, the first of about so many
-  /// collisions, until there were enough or the next would take more than the seconds.
-  Work parts(double seconds, double first_collisions, double enough_collisions) requires(Dim == 2);
-
   const Configuration<Dim>& now() const { return now_; }
 
  private:
@@ -67,16 +63,7 @@ class TimedRun {
   Configuration<Dim> now_;
 };
 
-/// Collisions per unit of time in a fluid of these, roughly: those of disks by Enskog's theory.
-double expected_collision_rate(const Configuration2& configuration);
-
-/// The calibration: nanoseconds per Vieillard-Baron function Ψ of two ellipses given by their angles.
-double ns_per_psi(double seconds);
-
-/// Bytes that this process has allocated now, and has had in memory at most since `forget_peak`.
+/// Bytes that this process has allocated now.
 std::size_t allocated_bytes();
-std::size_t peak_bytes();
-/// Peaks before do not count any more. False if the system does not allow that.
-bool forget_peak();
 
 }  // namespace vitrel::bench

@@ -1,14 +1,13 @@
 #include "bench/surveys/survey.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <optional>
 #include <span>
-#include <thread>
 
 #include "bench/surveys/timed_batches.h"
+#include "core/parallel.h"
 
 namespace vitrel::bench {
 namespace {
@@ -16,15 +15,10 @@ namespace {
 constexpr std::size_t first_block = 64, largest_block = 4096;
 
 /// work(k) for k = 0 … count − 1 on all processors: the reference takes far longer than the methods.
-void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  const auto worker = [&] {
-    for (std::size_t k = next++; k < count; k = next++) work(k);
-  };
-  std::vector<std::jthread> others;
-  const std::size_t threads = std::min<std::size_t>(std::thread::hardware_concurrency(), count);
-  for (std::size_t k = 1; k < threads; ++k) others.emplace_back(worker);
-  worker();
+void for_each_in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
+  in_parallel(count, all_cores, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) work(k);
+  });
 }
 
 /// Some consecutive cases of a class with their true answers.
@@ -40,7 +34,7 @@ Block<Dim> make_block(const SurveyRequestOf<Dim>& request, const CaseClassOf<Dim
                       std::uint64_t first, std::size_t count) {
   Block<Dim> block{first, std::vector<CollisionCaseOf<Dim>>(count),
                    std::vector<TrueContactOf<Dim>>(count)};
-  in_parallel(count, [&](std::size_t k) {
+  for_each_in_parallel(count, [&](std::size_t k) {
     const CollisionCaseOf<Dim>& asked = block.cases[k] = make_case(of, request.seed, first + k);
     block.truths[k] = truth_of(asked);
   });
@@ -126,15 +120,17 @@ class Examination {
  private:
   void answer(std::span<const CollisionCaseOf<Dim>> cases) {
     answers_.resize(cases.size());
-    timer_.run(cases.size(), [&] {
-      for (std::size_t k = 0; k < cases.size(); ++k) answers_[k] = method_->predict(cases[k]);
-    });
+    timer_.run(cases.size(), [&] { answer_all(cases); });
+  }
+  /// Not inlined: scripts/count_instructions counts its instructions.
+  [[gnu::noinline]] void answer_all(std::span<const CollisionCaseOf<Dim>> cases) {
+    for (std::size_t k = 0; k < cases.size(); ++k) answers_[k] = method_->predict(cases[k]);
   }
 
   void assess_answers(const Block<Dim>& block, std::size_t first,
                       std::optional<FailingCaseOf<Dim>>& failure) {
     assessments_.resize(answers_.size());
-    in_parallel(answers_.size(), [&](std::size_t k) {
+    for_each_in_parallel(answers_.size(), [&](std::size_t k) {
       assessments_[k] =
           assess(block.cases[first + k], block.truths[first + k], answers_[k], tolerance_);
     });

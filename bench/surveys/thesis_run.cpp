@@ -77,20 +77,6 @@ double seconds_of(Work work) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::unique_ptr<Engine2> make_program(Program program, const Configuration2& start) {
-  if (program == Program::ours) return make_engine(start, {});
-  const auto method = [](const char* name) {
-    const std::vector<Method> methods = collision_time_methods();
-    return *std::ranges::find(methods, name, &Method::name);
-  };
-  static const Method slsqp = method("slsqp"), checked = method("slsqp_checked");
-  EngineOptions options;
-  options.on_overlap = OnOverlap::correct;
-  if (program == Program::thesis)
-    return make_all_pairs_engine({options, Asking::every_pair, &slsqp});
-  return make_all_pairs_engine({options, Asking::changed_pairs, &checked});
-}
-
 void note_overlaps(const Configuration2& now, ThesisRun& result) {
   const ExactCheck<2> check = exact_check(now);
   ++result.samples;
@@ -180,11 +166,25 @@ const char* name_of(Program program) {
   return "";
 }
 
-ThesisRun run_thesis(Program program, const Configuration2& start, const RunLimits& limits,
-                     const RunControl& control,
+std::unique_ptr<Engine2> make_program(Program program, const Configuration2& start) {
+  if (program == Program::ours) return make_engine(start, {});
+  const auto method = [](const char* name) {
+    const std::vector<Method> methods = collision_time_methods();
+    return *std::ranges::find(methods, name, &Method::name);
+  };
+  static const Method slsqp = method("slsqp"), checked = method("slsqp_checked");
+  EngineOptions options;
+  options.on_overlap = OnOverlap::correct;
+  if (program == Program::thesis)
+    return make_all_pairs_engine({options, Asking::every_pair, &slsqp});
+  return make_all_pairs_engine({options, Asking::changed_pairs, &checked});
+}
+
+ThesisRun run_thesis(std::unique_ptr<Engine2> engine, const Configuration2& start,
+                     const RunLimits& limits, const RunControl& control,
                      const std::function<void(const Configuration2&)>& at_sample) {
   ThesisRun result;
-  Driver driver(make_program(program, start), start, limits.brownian_step);
+  Driver driver(std::move(engine), start, limits.brownian_step);
   const double first_energy = energy(start);
   const auto draw = [&](Configuration2& now, std::uint64_t step) {
     draw_velocities(now, limits.seed, Purpose::brownian_step, step, Temperature::total);

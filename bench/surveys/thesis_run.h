@@ -56,9 +56,11 @@ struct ThesisRun {
   bool stood_still = false;                ///< events without end at one time
 };
 
+std::unique_ptr<Engine2> make_program(Program program, const Configuration2& start);
+
 /// Samples every 0.1 units of time: the exact check, the energy, and `at_sample`.
-ThesisRun run_thesis(Program program, const Configuration2& start, const RunLimits& limits,
-                     const RunControl& control,
+ThesisRun run_thesis(std::unique_ptr<Engine2> engine, const Configuration2& start,
+                     const RunLimits& limits, const RunControl& control,
                      const std::function<void(const Configuration2&)>& at_sample = {});
 
 /// Energies after a start whose split between translation and rotation is wrong (figure 4.7): the

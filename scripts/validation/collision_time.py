@@ -18,9 +18,9 @@ FAILURES = ["early", "late", "missed", "false", "not_converged"]
 
 def survey(build, pairs, classes=()):
     # Early answers for degenerate pairs are checked below, more strictly than by --gap-tolerance.
-    command = [build / "bench/vitrel-bench", "collision-time", "--method", "separating_axis", "--pairs", str(pairs),
+    command = [build / "bench/vitrel-bench", "contact-time", "plane", "--method", "separating_axis", "--pairs", str(pairs),
                "--tolerance", str(TIME_TOLERANCE), "--gap-tolerance", "1e-8", "--json", "-q"]
-    return json.loads(output_of(command + [word for name in classes for word in ("--class", name)]))["rows"]
+    return json.loads(output_of(command + [word for name in classes for word in ("--class", name)]))["parts"][0]["rows"]
 
 
 def rows(build):
@@ -53,7 +53,7 @@ def measure(build):
     pairs = sum(one["pairs"] for one in measured)
     expect(PAIRS < 800_000 or pairs >= MIN_PAIRS, f"only {pairs} pairs in total")
     head = ["class", "largest κ", "pairs", "contacts", "degenerate", "largest error", "largest gap"]
-    return f"""`vitrel-bench collision-time` runs the default method on {pairs} pairs of {len(measured)} classes and compares every answer with
+    return f"""`vitrel bench contact-time plane` runs the default method on {pairs} pairs of {len(measured)} classes and compares every answer with
 the reference in 80-bit interval arithmetic. Required: no answer is late, missed, false or lacking, and none is early by
 more than {TIME_TOLERANCE:g} of the horizon (*largest error*, in fractions of the horizon). Degenerate pairs are exempt: their
 surfaces cross so slowly (below 0.02 (a₁ + a₂)/horizon) that the time is ill-defined. For these, and for a reported contact

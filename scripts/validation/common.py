@@ -1,7 +1,6 @@
 """Helpers shared by the validations."""
 
 import contextlib
-import csv
 import json
 import math
 import os
@@ -18,6 +17,9 @@ ROOT = HERE.parents[1]
 PARAMS = ROOT / "params"
 # An environment in which glibc does as on a processor without AVX and fused multiply-add; elsewhere it has no effect.
 OLD_PROCESSOR = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX512F"}
+
+
+COLOURS = ["#0072b2", "#c65200", "#00805c", "#b1407f", "#8a7a00", "#6a4fc4", "#a8281c", "#3c434b"]
 
 
 class Failure(Exception):
@@ -43,6 +45,13 @@ def expect_chart(page):
     expect("<svg" in text or "<canvas" in text or "uPlot" in text, f"{page.name} has no chart")
 
 
+def fluid_pressures():
+    """By aspect ratio and packing fraction, Z of fluids of hard ellipses in the literature."""
+    table = (ROOT / "bench/reference/literature.h").read_text(encoding="utf-8").split("fluid_pressures[] = {")[1].split("};")[0]
+    entries = [tuple(map(float, entry.split(","))) for entry in re.findall(r"\{([^{}]+)\}", table)]
+    return {(kappa, phi): z for kappa, phi, z, _ in entries}
+
+
 def carnahan_starling(phi):
     """Z of the fluid of hard spheres (1969)."""
     return (1 + phi + phi**2 - phi**3) / (1 - phi)**3
@@ -62,15 +71,6 @@ def properties_of_test(program, test, **variables):
 def summary_of(build, command, *arguments):
     """The JSON summary of a command of the program."""
     return json.loads(output_of([build / "app/vitrel", command, *arguments, "--json"]))
-
-
-def pair_columns(build, option, *words):
-    """By name, the columns of the CSV table that `vitrel pair` writes with this option."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder, "table.csv")
-        output_of([build / "app/vitrel", "pair", *words, option, file, "-q"])
-        head, *rows = csv.reader(file.open(encoding="utf-8"))
-    return dict(zip(head, zip(*([float(cell) for cell in row] for row in rows))))
 
 
 def settings(overrides):
@@ -175,42 +175,8 @@ def write_figure(figure, file):
     pyplot().close(figure)
 
 
-def clock_rate():
-    found = re.search(r"^cpu MHz\s*: (.+)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
-    return f", {float(found[1]) / 1000:.2f} GHz" if found else ""
-
-
-def commit_of(data):
-    """The commit from which a benchmark was built."""
-    return data["commit"][:8] + "-modified" * ("modified" in data["commit"])
-
-
-def measured(command, preset, *parts):
-    """The output of a subcommand of vitrel-bench built with this preset; build/<preset>/<command>.json keeps it."""
-    for step in (["--preset", preset], ["--build", "--preset", preset, "--target", "vitrel-bench"]):
-        subprocess.run(["cmake", *step], cwd=ROOT, check=True)
-    output = output_of([ROOT / "build" / preset / "bench/vitrel-bench", command, *parts])
-    (ROOT / "build" / preset / f"{command}.json").write_text(output, encoding="utf-8")
-    return json.loads(output)
-
-
-def compared(build, command, file, *options):
-    """The data that a comparison of vitrel-bench writes to this file of its output folder."""
-    with tempfile.TemporaryDirectory() as folder:
-        output_of([build / "bench/vitrel-bench", command, *map(str, options), "-q", "-o", folder])
-        return json.loads(pathlib.Path(folder, file).read_text(encoding="utf-8"))
-
-
 def shape(kappa):
     return "disks" if kappa == 1 else f"κ = {kappa:g}"
-
-
-def millions(per_second):
-    return f"{per_second / 1e6:.3g}"
-
-
-def rows_by(rows, *keys):
-    return {tuple(row[key] for key in keys): row for row in rows}
 
 
 def datasets(file):

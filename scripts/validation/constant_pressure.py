@@ -6,26 +6,11 @@ import pathlib
 import statistics
 import tempfile
 
-from validation.common import estimate, expect, preparation, shape, summary_of, table
+from validation.common import estimate, expect, fluid_pressures, preparation, shape, summary_of, table
 
 TITLE = "Constant pressure: packing fractions of hard disks and ellipses"
 
-# Aspect ratio, φ, Z = βP/ρ. Disks: Kolafa & Rottner (2006); ellipses: Monte Carlo at constant volume,
-# N ≈ 400.
-REFERENCE = (
-    (1, 0.3, 2.063261),
-    (1, 0.5, 4.106364),
-    (1, 0.6, 6.455337),
-    (1, 0.65, 8.408044),
-    (2, 0.2, 1.6332),
-    (2, 0.3, 2.1878),
-    (2, 0.5, 4.492),
-    (4, 0.2, 1.8666),
-    (4, 0.3, 2.6229),
-    (4, 0.4, 3.757),
-    (6, 0.2, 2.1272),
-    (6, 0.3, 3.0335),
-)
+REFERENCE = tuple((*state, z) for state, z in fluid_pressures().items())  # aspect ratio, φ, Z
 BOXES = ("isotropic", "anisotropic")
 SEEDS = 16
 PARTICLES = 100

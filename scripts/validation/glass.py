@@ -7,8 +7,7 @@ import re
 import tempfile
 import textwrap
 
-from validation.common import PARAMS, ROOT, expect, output_of, pyplot, settings, summary_of, table, write_figure
-from validation.figures import COLOURS
+from validation.common import COLOURS, PARAMS, ROOT, expect, output_of, pyplot, settings, summary_of, table, write_figure
 
 TITLE = "The glass"
 PAGE = ROOT / "docs" / "glass.md"

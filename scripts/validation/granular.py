@@ -4,9 +4,8 @@ import math
 import pathlib
 import tempfile
 
-from validation.common import (PARAMS, estimate, expect, properties_of_test, pyplot, save_figure, settings, summary_of, table,
+from validation.common import (COLOURS, PARAMS, estimate, expect, properties_of_test, pyplot, save_figure, settings, summary_of, table,
                                text_of)
-from validation.figures import COLOURS
 from validation.self_diffusion import SIGMA, contact_value, number_density
 
 TITLE = "Granular gases"

@@ -1,13 +1,12 @@
 """Monte Carlo in space: the pressure and the order of ellipsoids, and the speed of trials."""
 
 import concurrent.futures
-import json
 import math
 import os
 import pathlib
 import tempfile
 
-from validation.common import (apart, carnahan_starling, estimate, expect, output_of, properties_of_test, summary_of, table,
+from validation.common import (apart, carnahan_starling, estimate, expect, properties_of_test, summary_of, table,
                                text_of)
 
 TITLE = "Monte Carlo in space: ellipsoids"
@@ -166,13 +165,6 @@ def order_row(phi, sweeps, least, most, orders):
     return [phi, sweeps, *(text_of(*order) for order in orders.values()), f"{difference:.1f}"]
 
 
-def speed(build):
-    """Trials per second, and the time per batch of overlap tests, beside the plane."""
-    found = json.loads(output_of([build / "bench/vitrel-bench", "sampler", "space"]))["space"]
-    return [[name, row["particles"], f"{row['packing_fraction']:.2f}", f"{1e3 / row['ns_per_trial']:.2f}",
-             f"{row['batches']:.1f}", f"{row['ns_per_trial'] / row['batches']:.0f} ns"] for name, row in found.items()]
-
-
 def measure(build):
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         solids = [pool.submit(pressures, build, number, effort)
@@ -202,8 +194,4 @@ orientations at φ = 0.1 and swollen, or on a stretched face-centred cubic latti
 and S > {ORDER[1][2]} at φ = {ORDER[1][0]}.
 
 {table(["φ", "sweeps", *(f"S, {start} start" for start in STARTS), "difference in standard errors"], order)}
-
-Trials of local moves per second on one thread, in millions. A batch is the test of a trial against up to four others.
-
-{table(["", "N", "φ", "millions per second", "batches per trial", "time per batch"], speed(build))}
 """

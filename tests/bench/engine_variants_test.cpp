@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <string>
 
 #include "bench/surveys/engine_speed.h"
@@ -17,15 +16,6 @@
 namespace vitrel::bench {
 namespace {
 
-std::unique_ptr<Engine2> make_eager() {
-  set_search_window(std::numeric_limits<double>::infinity());
-  return make_engine_with_search_window();
-}
-std::unique_ptr<Engine2> make_lazier() {
-  set_search_window(0.05);
-  return make_engine_with_search_window();
-}
-
 struct Variant {
   std::string name;
   std::function<std::unique_ptr<Engine2>()> make;
@@ -34,8 +24,6 @@ const std::vector<Variant> variants = {
     {"without_contact_screen", make_engine_without_lower_bound},
     {"without_horizon", make_engine_without_horizon},
     {"with_round_lists", make_engine_with_round_lists},
-    {"with_infinite_search_window", make_eager},
-    {"with_short_search_window", make_lazier},
 };
 
 Configuration2 scene() {
@@ -93,11 +81,6 @@ TEST(EngineVariants, DifferInWhatTheyAsk) {
   EXPECT_EQ(unseen.searches, unseen.predictions);
   EXPECT_GT(counts(make_engine_without_horizon()).searches, plain.searches);
   EXPECT_GT(counts(make_engine_with_round_lists()).predictions, 3 * plain.predictions / 2);
-  const RunCounters eager = counts(make_eager()), lazier = counts(make_lazier());
-  EXPECT_LT(plain.searches, eager.searches);
-  EXPECT_LT(lazier.searches, plain.searches);
-  EXPECT_GT(plain.events, eager.events);
-  EXPECT_GT(lazier.events, plain.events);
 }
 
 TEST(TiledFluid, IsHardAndAsDense) {

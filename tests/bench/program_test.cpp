@@ -4,10 +4,13 @@
 #include <signal.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
-#include "bench/programs/number_text.h"
+#include "bench/reference/literature.h"
+#include "bench/studies/study.h"
 #include "tests/app/program.h"
 
 namespace vitrel::bench {
@@ -19,7 +22,6 @@ using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
 using testing_program::run_and_signal;
-using Json = nlohmann::json;
 
 std::string content(const std::filesystem::path& file) {
   std::ostringstream text;
@@ -27,44 +29,25 @@ std::string content(const std::filesystem::path& file) {
   return text.str();
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t times = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size())
-    ++times;
-  return times;
-}
-
-/// The data inside a page.
-Json data_of(const std::string& page) {
-  const std::string opening = "<script type=\"application/json\" id=\"data\">";
-  const std::size_t begin = page.find(opening) + opening.size();
-  return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-}
-
-TEST(BenchThesis, TheOutputIsLookedAtFirst) {
-  const Folder folder("bench_output");
-  folder.write("file", "");
-  const Outcome outcome = run(folder.path(), {"thesis", "-o", "file/output"});
-  EXPECT_EQ(outcome.code, 3);
-  EXPECT_THAT(outcome.errors, HasSubstr("file/output: the folder cannot be made"));
-}
-
-TEST(BenchCollisionTime, PrintsRowsWithTheKeysOfTheManual) {
-  const Folder folder("bench_rows");
-  const Outcome outcome =
-      run(folder.path(), {"collision-time", "--pairs", "30", "--class", "generic", "--method",
-                          "separating_axis", "slsqp", "--json", "-q"});
-  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+/// What a study prints as JSON; by part, its rows.
+Json numbers(const Folder& folder, std::vector<std::string> words) {
+  words.insert(words.end(), {"--json", "-q"});
+  const Outcome outcome = run(folder.path(), words);
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
-  const Json rows = Json::parse(outcome.output)["rows"];
+  return Json::parse(outcome.output);
+}
+
+TEST(BenchContactTime, PrintsRowsWithTheKeysOfTheManual) {
+  const Folder folder("bench_rows");
+  const Json found = numbers(folder, {"contact-time", "plane", "--pairs", "30", "--class",
+                                      "generic", "--method", "separating_axis", "slsqp"});
+  const Json& rows = found["parts"][0]["rows"];
   ASSERT_EQ(rows.size(), 4u);  // two methods, generic at two aspect ratios
   for (const Json& row : rows) {
-    for (const char* const key :
-         {"method", "class", "aspect_ratio", "pairs", "correct", "early", "late", "missed", "false",
-          "not_converged", "ns_per_call", "largest_error", "tolerance", "degenerate",
-          "median_error", "largest_gap_error", "largest_moot_gap", "contacts"})
+    for (const char* const key : {"tolerance", "degenerate", "median_error", "largest_gap_error",
+                                  "largest_moot_gap", "contacts"})
       EXPECT_TRUE(row.contains(key)) << key;
-    EXPECT_EQ(row["class"], "generic");
     EXPECT_GT(row["ns_per_call"], 1.0);
     int answers = 0;
     for (const char* const key : {"correct", "early", "late", "missed", "false", "not_converged"})
@@ -76,14 +59,13 @@ TEST(BenchCollisionTime, PrintsRowsWithTheKeysOfTheManual) {
   EXPECT_LT(rows[0]["largest_error"], 1e-12);
 }
 
-TEST(BenchCollisionTime, AllowsErrorsOfTimesAndGapsByTheirTolerances) {
+TEST(BenchContactTime, AllowsErrorsOfTimesAndGapsByTheirTolerances) {
   const Folder folder("bench_tolerance");
   const auto row = [&](const std::vector<std::string>& tolerances) {
-    std::vector<std::string> words = {"collision-time",  "--pairs", "60",
-                                      "--class",         "slow",    "--method",
-                                      "separating_axis", "--json",  "-q"};
+    std::vector<std::string> words = {"collision-time", "plane", "--pairs",  "60",
+                                      "--class",        "slow",  "--method", "separating_axis"};
     words.insert(words.end(), tolerances.begin(), tolerances.end());
-    return Json::parse(run(folder.path(), words).output)["rows"][0];
+    return numbers(folder, words)["parts"][0]["rows"][0];
   };
   // All contacts of this class are degenerate: declared at a gap of about one contact gap, early.
   const Json lenient = row({"--tolerance", "1e-12", "--gap-tolerance", "1e-8"});
@@ -96,82 +78,39 @@ TEST(BenchCollisionTime, AllowsErrorsOfTimesAndGapsByTheirTolerances) {
   EXPECT_EQ(strict["early"], strict["contacts"]);
 }
 
-TEST(BenchCollisionTime, WritesPageChartsAndData) {
+TEST(BenchContactTime, WritesPageTablesAndNumbers) {
   const Folder folder("bench_page");
-  const Outcome outcome =
-      run(folder.path(), {"collision-time", "--pairs", "40", "--seconds", "0.2", "--duration",
-                          "0.1", "--class", "generic", "recorded", "-o", "out"});
+  const Outcome outcome = run(folder.path(), {"contact-time", "--pairs", "40", "--seconds", "0.2",
+                                              "--class", "generic", "recorded", "-o", "out"});
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("separating_axis (tolerance"), HasSubstr("generic"),
-                                    HasSubstr("recorded")));
-  const std::filesystem::path out = folder / "out";
-  const Json data = Json::parse(content(out / "collision-time.json"));
-  EXPECT_GT(data["rows"].size(), 10u);
-  EXPECT_GT(data["tolerances"].size(), 10u);
-  EXPECT_GT(data["overlap"].size(), 10u);
-  EXPECT_GT(data["whole_runs"].size(), 10u);
-  ASSERT_EQ(data["scene"][1]["method"], "separating_axis");
-  EXPECT_NEAR(data["scene"][1]["time"], 0.08472238582199765, 1e-13);
-  EXPECT_THAT(data["provenance"]["command"], HasSubstr("vitrel-bench collision-time --pairs 40"));
-  ASSERT_FALSE(data["failures"].empty());
-  for (const Json& failure : data["failures"]) {
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("## plane"), HasSubstr("recorded, κ = 2"),
+                                    HasSubstr("## passing_pair")));
+  const Json data = Json::parse(content(folder / "out/contact-time.json"));
+  ASSERT_EQ(data["parts"].size(), 6u);
+  for (const Json& part : data["parts"]) EXPECT_GT(part["rows"].size(), 3u) << part["name"];
+  const Json& scene = data["parts"][2]["rows"];
+  ASSERT_EQ(scene[1]["method"], "separating_axis");
+  EXPECT_NEAR(scene[1]["time"], 0.08472238582199765, 1e-13);
+  for (const char* const key : {"command", "commit", "processor", "compiler", "flags", "date"})
+    EXPECT_TRUE(data["provenance"].contains(key)) << key;
+  ASSERT_FALSE(data["more"]["failures"].empty());
+  for (const Json& failure : data["more"]["failures"]) {
     EXPECT_NE(failure["method"], "separating_axis");
-    EXPECT_THAT(failure["caption"], testing::Not(testing::IsEmpty()));
-    ASSERT_FALSE(failure["pictures"].empty());
     EXPECT_EQ(failure["pictures"][0]["title"], "start");
     for (const Json& picture : failure["pictures"]) EXPECT_EQ(picture["ellipses"].size(), 2u);
   }
-  const std::string page = content(out / "collision-time.html");
-  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
-  EXPECT_EQ(count(page, " src="), 0u);
-  EXPECT_EQ(data_of(page), data);
+  const std::string page = content(folder / "out/contact-time.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("default-src 'none'"), HasSubstr("plane_tolerances"),
+                          testing::Not(HasSubstr(" src="))));
+  EXPECT_THAT(content(folder / "out/contact-time.md"), HasSubstr(outcome.output.substr(0, 200)));
 }
 
-TEST(BenchCollisionTimeOfEllipsoids, WritesPageAndData) {
-  const Folder folder("bench_ellipsoids");
-  const Outcome outcome =
-      run(folder.path(), {"collision-time-of-ellipsoids", "--pairs", "20", "--seconds", "0.1",
-                          "--class", "generic", "-q", "-o", "out"});
-  ASSERT_EQ(outcome.code, 0) << outcome.errors;
-  const Json data = Json::parse(content(folder / "out/collision-time.json"));
-  EXPECT_EQ(data["rows"].size(), 6u);  // three methods, generic at two aspect ratios
-  EXPECT_EQ(data["passing_pair"]["eta1"]["curve"]["time"].size(), 401u);
-  EXPECT_GE(data["passing_pair"]["eta1"]["scan"]["time"].size(), 3u);
-  EXPECT_EQ(data_of(content(folder / "out/collision-time.html")), data);
-}
-
-TEST(BenchOverlap, PrintsAndWrites) {
-  const Folder folder("bench_overlap");
-  const Outcome outcome = run(folder.path(), {"overlap", "--pairs", "200", "--seconds", "0.1",
-                                              "--json", "-q", "-o", "out"});
-  ASSERT_EQ(outcome.code, 0) << outcome.errors;
-  const Json rows = Json::parse(outcome.output)["rows"];
-  EXPECT_EQ(rows.size(), 60u);  // ten criteria, six classes
-  for (const Json& row : rows) {
-    for (const char* const key : {"method", "class", "aspect_ratio", "pairs", "wrong_overlap",
-                                  "wrong_disjoint", "largest_wrong_gap", "ns_per_call"})
-      EXPECT_TRUE(row.contains(key)) << key;
-    if (row["method"] == "support_gap") {
-      EXPECT_EQ(row["wrong_overlap"].get<int>() + row["wrong_disjoint"].get<int>(), 0);
-    }
-  }
-  EXPECT_TRUE(Json::parse(content(folder / "out/overlap.json")).contains("rows"));
-  EXPECT_THAT(content(folder / "out/overlap.html"), HasSubstr("polygon_"));
-}
-
-TEST(BenchWholeRun, PrintsAndWrites) {
+TEST(BenchWholeRun, NeedsNoCorrectionsWithTheDefaultMethod) {
   const Folder folder("bench_whole_run");
-  const Outcome outcome =
-      run(folder.path(), {"whole-run", "--duration", "1", "--method", "separating_axis", "psi_root",
-                          "--json", "-q", "-o", "out"});
-  ASSERT_EQ(outcome.code, 0) << outcome.errors;
-  const Json rows = Json::parse(outcome.output)["rows"];
+  const Json rows = numbers(folder, {"whole-run", "--duration", "1", "--method", "separating_axis",
+                                     "psi_root", "-o", "run.json"})["parts"][0]["rows"];
   ASSERT_EQ(rows.size(), 12u);  // two methods, six tolerances
   for (const Json& row : rows) {
-    for (const char* const key :
-         {"method", "tolerance", "simulated_time", "collisions", "correction_moves",
-          "collisions_per_second", "energy_drift", "deepest_overlap", "stood_still"})
-      EXPECT_TRUE(row.contains(key)) << key;
     EXPECT_NEAR(row["simulated_time"], 1, 1e-9);
     EXPECT_GT(row["collisions"], 100);
     EXPECT_LT(row["energy_drift"], 1e-13);
@@ -181,68 +120,118 @@ TEST(BenchWholeRun, PrintsAndWrites) {
       EXPECT_EQ(row["deepest_overlap"], 0);
     }
   }
-  EXPECT_EQ(Json::parse(content(folder / "out/whole-run.json"))["rows"], rows);
-  EXPECT_EQ(data_of(content(folder / "out/whole-run.html"))["whole_runs"], rows);
+  EXPECT_EQ(Json::parse(content(folder / "run.json"))["parts"][0]["rows"], rows);
 }
 
-TEST(BenchWholeRun, PrintsATableOfWholeLinesInAHundredColumns) {
-  const Folder folder("bench_whole_run_text");
-  const Outcome outcome =
-      run(folder.path(), {"whole-run", "--duration", "0.5", "--method", "perram_wertheim_root"});
-  ASSERT_EQ(outcome.code, 0) << outcome.errors;
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("perram_wertheim_root\n"), HasSubstr("corrections")));
-  std::istringstream lines(outcome.output);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 104u) << line;
+TEST(BenchThesis, ComparesThreePrograms) {
+  const Folder folder("bench_thesis");
+  const Json found =
+      numbers(folder, {"thesis", "--quick", "--duration", "0.5", "--seconds", "0.1"});
+  const Json& rows = found["parts"][0]["rows"];
+  ASSERT_EQ(rows.size(), 24u);  // N = 16 and 25; ellipses and circles; three programs; two dynamics
+  for (const Json& row : rows) {
+    EXPECT_GT(row["collisions"], 0);
+    EXPECT_GT(row["ns_per_time"], 0);
+    if (row["method"] != "vitrel") continue;
+    EXPECT_NEAR(row["simulated_time"], 0.5 * 400 / row["particles"].get<int>(), 0.1);
+    EXPECT_EQ(row["correction_moves"], 0);
+    EXPECT_NEAR(row["samples"], 10 * row["simulated_time"].get<double>(), 1e-6);
+    EXPECT_EQ(row["samples_with_overlap"], 0);
+    EXPECT_LT(row["energy_drift"], 1e-13);
+  }
+  EXPECT_EQ(found["parts"][1]["rows"].size(), 18u);
+  EXPECT_GE(found["parts"][2]["rows"].size(), 10u);
+}
+
+TEST(BenchEngine, CountsMakeSense) {
+  const Folder folder("bench_engine");
+  const Json found =
+      numbers(folder, {"engine", "speed", "gases", "devices", "calendar", "--quick"});
+  for (const Json& row : found["parts"][0]["rows"]) {
+    if (row["method"] != "engine") continue;
+    // A collision is one event; a few more find that their partner has met another.
+    EXPECT_GT(row["events"], 1) << row;
+    EXPECT_LT(row["events"], 3) << row;
+    EXPECT_GT(row["predictions"], 8) << row;
+    EXPECT_LT(row["searches"], row["predictions"]) << row;
+    if (row["shape"] == "disks" && row["packing_fraction"] == 0.5) {
+      EXPECT_NEAR(row["z"], fluid_pressure(1, 0.5).z, 0.3);
+    }
+  }
+  for (const Json& row : found["parts"][2]["rows"])
+    if (row["method"] == "every pair searched") {
+      EXPECT_EQ(row["searches"], row["predictions"]);
+    }
+  EXPECT_EQ(found["parts"][3]["rows"].size(),
+            8u);  // two calendars, near and anywhere, 100 and 1000 particles
+}
+
+TEST(BenchSampling, AllMethodsAgreeAndForget) {
+  const Folder folder("bench_sampling");
+  const Json found = numbers(folder, {"sampling", "--quick"});
+  std::map<std::string, std::vector<double>> z;
+  for (const Json& row : found["parts"][0]["rows"]) {
+    EXPECT_GT(row["z_error"], 0) << row;
+    if (row["packing_fraction"] == 0.3 && row["shape"] == "disks") {
+      EXPECT_NEAR(row["z"], 2.0, 0.3) << row;  // 64 particles, a twentieth of a second
+    }
+  }
+  for (const Json& row : found["parts"][1]["rows"]) {
+    EXPECT_EQ(row.contains("orientations"), row["liquid"] == "ellipses" && row.contains("places"));
+    if (row.contains("exchanges_accepted")) {
+      EXPECT_GT(row["exchanges_accepted"], 0);
+      EXPECT_LT(row["exchanges_accepted"], 1);
+    }
+  }
+  for (const Json& row : found["parts"][2]["rows"]) EXPECT_GT(row["ns_per_trial"], 0);
+}
+
+TEST(BenchAnalysis, AgreesWithPlainLoopsAndSums) {
+  const Folder folder("bench_analysis");
+  const Json found = numbers(folder, {"analysis", "--quick"});
+  for (const Json& row : found["parts"][0]["rows"])
+    if (row["method"] == "vitrel") {
+      EXPECT_LT(row["difference"], 1e-9) << row;
+    }
+  for (const Json& row : found["parts"][1]["rows"])
+    if (row["method"] == "transform") {
+      EXPECT_LE(row["share_of_bound"], 1) << row;
+    }
+}
+
+TEST(BenchSoftContacts, TablesKeepTheirTolerance) {
+  const Folder folder("bench_soft");
+  const Json found = numbers(folder, {"soft-contacts", "--quick"});
+  for (const Json& row : found["parts"][2]["rows"]) EXPECT_LT(row["error"], 1e-12) << row;
+  for (const Json& row : found["parts"][3]["rows"])
+    if (row["method"] == "table") {
+      EXPECT_LE(row["error"], 2 * row["tolerance"].get<double>()) << row;
+    }
 }
 
 TEST(Bench, RefusesUnknownNamesAndSaysWhichThereAre) {
   const Folder folder("bench_names");
-  const Outcome method = run(folder.path(), {"collision-time", "--method", "magic"});
-  EXPECT_EQ(method.code, 2);
-  EXPECT_THAT(method.errors, AllOf(HasSubstr("magic"), HasSubstr("separating_axis")));
-  const Outcome of = run(folder.path(), {"collision-time", "--class", "easy"});
-  EXPECT_EQ(of.code, 2);
-  EXPECT_THAT(of.errors, AllOf(HasSubstr("easy"), HasSubstr("generic,")));
-  const Outcome criterion = run(folder.path(), {"overlap", "--method", "magic"});
-  EXPECT_EQ(criterion.code, 2);
-  EXPECT_THAT(criterion.errors, HasSubstr("vieillard_baron"));
-  const Outcome runs = run(folder.path(), {"whole-run", "--method", "nelder_mead"});
-  EXPECT_EQ(runs.code, 2);
-  EXPECT_THAT(runs.errors, HasSubstr("psi_root"));
-  EXPECT_EQ(run(folder.path(), {"whole-run", "--duration", "0"}).code, 2);
-  EXPECT_EQ(run(folder.path(), {}).code, 2);
-  EXPECT_EQ(run(folder.path(), {"collision-time", "--pairs", "0"}).code, 2);
   folder.write("file", "");
-  EXPECT_EQ(run(folder.path(), {"overlap", "--pairs", "10", "-o", "file/out"}).code, 3);
-}
-
-TEST(Bench, QuickProgramsPrintWhatTheyMeasure) {
-  const Folder folder("bench_quick");
-  const auto json = [&](const std::vector<std::string>& words) {
+  const auto expect_mistake = [&](const std::vector<std::string>& words, const std::string& says,
+                                  int code = 2) {
     const Outcome outcome = run(folder.path(), words);
-    EXPECT_EQ(outcome.code, 0) << outcome.errors;
-    return Json::parse(outcome.output);
+    EXPECT_EQ(outcome.code, code);
+    EXPECT_THAT(outcome.errors, HasSubstr(says));
   };
-  EXPECT_GT(json({"solids", "--quick"})["speed"].size(), 1u);
-  const Json engine = json({"engine", "speed", "--quick"});
-  EXPECT_TRUE(engine.contains("speed") && engine.contains("flags") && !engine.contains("devices"));
-  EXPECT_EQ(run(folder.path(), {"engine", "spede", "--quick"}).code, 2);
-  EXPECT_THAT(run(folder.path(), {"calendar", "100", "--repeats", "1"}).output,
-              HasSubstr(" near |"));
-  EXPECT_THAT(run(folder.path(), {"first-contact", "generic", "6", "--pairs", "50"}).output,
-              HasSubstr("ns per prediction"));
-  EXPECT_EQ(run(folder.path(), {"first-contact", "easy"}).code, 2);
-  const Json growth = json({"analysis-growth", "--quick"});
-  for (const char* axis : {"frames", "particles", "lags", "threads"}) {
-    EXPECT_GT(growth[axis].back()[axis], growth[axis].front()[axis]);
-    for (const Json& row : growth[axis]) EXPECT_LT(row["difference"], 1e-9) << row;
-  }
+  expect_mistake({"contact-time", "--method", "magic"}, "separating_axis");
+  expect_mistake({"contact-time", "--class", "easy"}, "generic,");
+  expect_mistake({"overlap", "--method", "magic"}, "vieillard_baron");
+  expect_mistake({"whole-run", "--method", "nelder_mead"}, "psi_root");
+  expect_mistake({"engine", "spede", "--quick"}, "speed");
+  expect_mistake({"whole-run", "--duration", "0"}, "--duration");
+  expect_mistake({"contact-time", "--pairs", "0"}, "--pairs");
+  expect_mistake({"thesis", "-o", "file/output"}, "file/output: the folder cannot be made", 3);
 }
 
 TEST(Bench, StopsOnASignalWithTheRowsDone) {
   const Folder folder("bench_stop");
   const Outcome outcome =
-      run_and_signal(folder.path(), {"collision-time", "--pairs", "100000000", "-o", "out"},
+      run_and_signal(folder.path(), {"contact-time", "--pairs", "100000000", "-o", "out"},
                      std::chrono::milliseconds(1500), SIGTERM);
   EXPECT_EQ(outcome.code, 5) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("generic"));
@@ -250,15 +239,27 @@ TEST(Bench, StopsOnASignalWithTheRowsDone) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
-TEST(NumberText, IsShort) {
-  EXPECT_EQ(time_text(213.4), "213 ns");
-  EXPECT_EQ(time_text(12340), "12.3 µs");
-  EXPECT_EQ(time_text(999.7), "1.00 µs");
-  EXPECT_EQ(time_text(2.5e9), "2.50 s");
-  EXPECT_EQ(count_text(0), "·");
-  EXPECT_EQ(ratio_text(41.567), "41.6");
-  EXPECT_EQ(ratio_text(1412), "1412");
-  EXPECT_EQ(error_text(std::numeric_limits<double>::quiet_NaN()), "–");
+TEST(Bench, ListsItsStudies) {
+  const Folder folder("bench_list");
+  const Outcome outcome = run(folder.path(), {});
+  EXPECT_EQ(outcome.code, 0);
+  for (const Study& study : studies()) EXPECT_THAT(outcome.output, HasSubstr("\n  " + study.name));
+}
+
+TEST(Bench, StudiesHaveAQuestionAndPartsWithNamesOfTheirOwn) {
+  std::set<std::string> names;
+  for (const Study& study : studies()) {
+    EXPECT_TRUE(study.question.ends_with("?"));
+    EXPECT_TRUE(names.insert(study.name).second);
+    for (const Alias& alias : study.aliases) EXPECT_TRUE(names.insert(alias.name).second);
+    std::set<std::string> parts;
+    for (const Part& part : study.parts) {
+      EXPECT_TRUE(parts.insert(part.name).second);
+      EXPECT_TRUE(part.about.ends_with(".")) << part.name;
+    }
+    for (const Alias& alias : study.aliases)
+      for (const std::string& part : alias.parts) EXPECT_TRUE(parts.contains(part)) << part;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "bench/reference/literature.h"
 #include "mc/compression.h"
 #include "tests/support/fluids.h"
 #include "tests/support/statistics.h"
@@ -59,15 +60,15 @@ std::string name_of(const testing::TestParamInfo<Case>& at) {
          (change == BoxChange::isotropic ? "_isotropic" : "_anisotropic");
 }
 
-// Disks: Kolafa & Rottner (2006); ellipses: Monte Carlo at constant volume, N ≈ 400, good to 0.1 %.
-INSTANTIATE_TEST_SUITE_P(Tables, ConstantPressure,
-                         testing::Combine(testing::Values(TableEntry{1, 0.5, 4.106364, 0.001},
-                                                          TableEntry{2, 0.5, 4.492, 0.001},
-                                                          TableEntry{4, 0.4, 3.757, 0.001},
-                                                          TableEntry{6, 0.3, 3.0335, 0.001}),
-                                          testing::Values(BoxChange::isotropic,
-                                                          BoxChange::anisotropic)),
-                         name_of);
+TableEntry entry(double aspect_ratio, double packing_fraction) {
+  return {aspect_ratio, packing_fraction, fluid_pressure(aspect_ratio, packing_fraction).z, 0.001};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Tables, ConstantPressure,
+    testing::Combine(testing::Values(entry(1, 0.5), entry(2, 0.5), entry(4, 0.4), entry(6, 0.3)),
+                     testing::Values(BoxChange::isotropic, BoxChange::anisotropic)),
+    name_of);
 
 }  // namespace
 }  // namespace vitrel

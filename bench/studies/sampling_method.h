@@ -1,0 +1,128 @@
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/io/json.h"
+#include "edmd/brownian.h"
+#include "edmd/engine.h"
+#include "mc/contact_pressure.h"
+#include "mc/event_chain.h"
+#include "mc/sampler.h"
+
+/// @file
+/// Ways to sample a hard liquid in equilibrium at constant volume, each with a state of its own.
+namespace vitrel::bench {
+
+inline double share_of(std::uint64_t part, std::uint64_t all) {
+  return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : 0;
+}
+
+template <int Dim>
+struct SamplingMethod {
+  SamplingMethod(std::string what, const Configuration<Dim>& start)
+      : name(std::move(what)), state(start) {}
+  virtual ~SamplingMethod() = default;
+  virtual void sweep() = 0;
+  virtual void tune() {}
+  /// Brings `state` up to date.
+  virtual void write() {}
+  /// βP/ρ since the last call, by what the method knows.
+  virtual double compressibility() = 0;
+  virtual ExchangeCounts exchanges() const { return {}; }
+
+  std::string name;
+  Configuration<Dim> state;
+};
+
+/// Z by the contact function, measured every few sweeps.
+template <int Dim>
+struct LocalMoves : SamplingMethod<Dim> {
+  LocalMoves(std::string what, const Configuration<Dim>& start,
+             const ExchangeOptions& exchanges = {})
+      : SamplingMethod<Dim>(std::move(what), start), sampler(this->state, 11) {
+    sampler.set_exchanges(exchanges);
+  }
+  void sweep() override {
+    constexpr int interval = 10;
+    sampler.sweep();
+    if (measures && ++sweeps % interval == 0) pressure.add(this->state);
+  }
+  void tune() override { sampler.tune(); }
+  double compressibility() override {
+    const double z = measures ? pressure.compressibility() : 0;
+    measures = true;
+    pressure.clear();
+    return z;
+  }
+  ExchangeCounts exchanges() const override { return sampler.counts().exchanges; }
+
+  Sampler<Dim> sampler;
+  ContactPressure pressure;
+  bool measures = false;
+  int sweeps = 0;
+};
+
+/// Z by the contacts of the chains.
+template <int Dim>
+struct Chains : SamplingMethod<Dim> {
+  Chains(std::string what, const Configuration<Dim>& start, const ExchangeOptions& exchanges = {})
+      : SamplingMethod<Dim>(std::move(what), start),
+        chains(this->state, {.exchanges = exchanges}, 12) {}
+  void sweep() override { chains.sweep(); }
+  void tune() override { chains.tune(); }
+  double compressibility() override {
+    const ChainCounts now = chains.counts();
+    const double z = 1 + (now.ahead - before.ahead) / (now.length - before.length);
+    before = now;
+    return z;
+  }
+  ExchangeCounts exchanges() const override { return chains.counts().exchanges; }
+
+  EventChain<Dim> chains;
+  ChainCounts before;
+};
+
+/// Newton's laws, in steps of about as many collisions as there are particles. Z by the virial.
+template <int Dim>
+struct Motion : SamplingMethod<Dim> {
+  explicit Motion(const Configuration<Dim>& start)
+      : SamplingMethod<Dim>("motion", start), engine(make_engine(started(), EngineOptions{})) {
+    engine->load(this->state);
+  }
+  Configuration<Dim>& started() {
+    draw_velocities(this->state, 1, Purpose::velocities, 0, Temperature::total);
+    return this->state;
+  }
+  void sweep() override {
+    constexpr double step = 0.01;  // far less than it takes to forget anything
+    const std::uint64_t goal = counters.collisions + this->state.size();
+    while (counters.collisions < goal) {
+      time += step;
+      while (engine->advance(time, counters) == Engine<Dim>::Stop::block_end) {
+        engine->write(this->state);
+        engine->load(this->state);
+      }
+    }
+  }
+  void write() override { engine->write(this->state); }
+  double compressibility() override {
+    const double particles = static_cast<double>(this->state.size());
+    const double z = 1 + (counters.virial - virial) / (Dim * particles * (time - begin));
+    virial = counters.virial, begin = time;
+    return z;
+  }
+
+  std::unique_ptr<Engine<Dim>> engine;
+  RunCounters counters;
+  double time = this->state.time;
+  double virial = 0, begin = time;
+};
+
+template <int Dim>
+using SamplingMethods = std::vector<std::unique_ptr<SamplingMethod<Dim>>>;
+
+}  // namespace vitrel::bench

@@ -1,0 +1,12 @@
+#include "bench/studies/study.h"
+
+namespace vitrel::bench {
+
+const std::vector<Study>& studies() {
+  static const std::vector<Study> all = {
+      overlap_study(),  contact_time_study(), whole_run_study(), engine_study(),
+      sampling_study(), soft_contact_study(), analysis_study(),  thesis_study()};
+  return all;
+}
+
+}  // namespace vitrel::bench

@@ -1,0 +1,151 @@
+"""The studies of vitrel-bench: rewrites docs/studies, its tables, pages and figures, and checks what is required of them."""
+
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import urllib.parse
+
+from validation.common import ROOT, carnahan_starling, expect, output_of
+
+TITLE = "Studies"
+FOLDER = ROOT / "docs" / "studies"
+OPTIONS = {"contact-time": ["--pairs", "10000", "--seconds", "20", "--tolerance", "1e-12", "--gap-tolerance", "1e-8"],
+           "thesis": ["--seconds", "2"]}
+
+ERROR_OF_CARNAHAN_STARLING = 0.004  # in a dense liquid
+COST_RATIOS = {100_000: 1.6, 1_000_000: 2.5}  # of a collision, relative to 1000 particles
+EXPONENTS = {("vitrel", "ellipses"): (0.8, 1.3), ("vitrel", "circles"): (0.8, 1.3),
+             ("thesis", "ellipses"): (1.7, 2.5), ("thesis", "circles"): (2.4, 3.2)}
+
+# Saves every chart of the page as the button "SVG" does.
+SVG = """(() => { const saved = [], click = HTMLAnchorElement.prototype.click;
+  HTMLAnchorElement.prototype.click = function () { saved.push([this.download, this.href]); };
+  for (const button of document.querySelectorAll('.chart .tools button')) if (button.textContent === 'SVG') button.click();
+  HTMLAnchorElement.prototype.click = click; return saved; })()"""
+
+
+def of(rows, **values):
+    return [row for row in rows if all(row.get(key) == value for key, value in values.items())]
+
+
+def check_overlap(parts):
+    for row in parts["plane"] + parts["space"]:
+        exact = not row["method"].startswith("polygon") and not row["method"].endswith(("_in_the_thesis", "_as_printed"))
+        expect(not exact or row["wrong_overlap"] + row["wrong_disjoint"] == 0, f"overlap: {row}")
+
+
+def check_contact_time(parts):
+    for part in ("plane", "space"):
+        for row in of(parts[part], method="separating_axis"):
+            expect(row["correct"] == row["pairs"], f"{part}: the default method is wrong: {row}")
+    for row in parts["passing_pair"]:
+        found = row["time"] is not None
+        expect(row["method"] != "separating_axis" or found, f"the passing pair: {row}")
+
+
+def check_whole_run(parts):
+    for row in of(parts["thesis"], method="separating_axis"):
+        expect(row["correction_moves"] == 0, f"correction moves with the default method: {row}")
+
+
+def check_engine(parts):
+    for row in of(parts["speed"], shape="spheres"):
+        known = carnahan_starling(row["packing_fraction"])
+        expect(abs(row["z"] / known - 1) <= ERROR_OF_CARNAHAN_STARLING, f"spheres: Z = {row['z']}, not {known}")
+    for row in parts["sizes"]:
+        first = of(parts["sizes"], aspect_ratio=row["aspect_ratio"])[0]
+        ratio = row["ns_per_collision"] / first["ns_per_collision"]
+        expect(ratio <= COST_RATIOS.get(row["particles"], ratio), f"a collision costs {ratio:.2f} times as much: {row}")
+
+
+def check_sampling(parts):
+    for row in parts["pressure"]:
+        other = of(parts["pressure"], method="chains", shape=row["shape"], packing_fraction=row["packing_fraction"])[0]
+        off = abs(row["z"] - other["z"]) / (row["z_error"] ** 2 + other["z_error"] ** 2 or 1) ** 0.5
+        expect(off <= 5, f"methods differ by {off:.1f} standard errors: {row}")
+    for two in of(parts["threads"], method="two threads"):
+        one = of(parts["threads"], method="one thread", shape=two["shape"])[0]
+        expect(one["ns_per_trial"] / two["ns_per_trial"] >= 1.6, f"two threads gain too little: {two}")
+
+
+def check_soft_contacts(parts):
+    tables = of(parts["accuracy"], method="tables")[-1]
+    finest = of(parts["accuracy"], method="force_based")[-1]
+    expect(finest["median"] > tables["median"] and finest["ns_per_second"] > 100 * tables["ns_per_second"], f"{finest}")
+    for row in of(parts["speed"], method="tables"):
+        hard = of(parts["speed"], method="hard", packing_fraction=row["packing_fraction"])[0]
+        expect(hard["ns_per_collision"] >= 0.4 * row["ns_per_collision"], f"tables are slow: {row}")
+    for row in parts["integration"]:
+        expect(row["error"] <= 1e-12, f"integration: {row}")
+    for row in of(parts["restitution"], method="table"):
+        expect(max(row["rate"], row["duration"]) <= row["tolerance"] and row["error"] <= 2 * row["tolerance"], f"table: {row}")
+        expect(row["without_value"] <= 1e-3 * row["points"], f"table: {row}")
+        expect(row["megabytes"] <= 200 and row["seconds"] <= 600 and row["ns_per_impact"] <= 1000, f"table: {row}")
+
+
+def check_analysis(parts):
+    for row in of(parts["motion"], method="vitrel"):
+        expect(row["difference"] <= 1e-9, f"means differ: {row}")
+    for row in of(parts["structure_factor"], method="transform"):
+        expect(row["share_of_bound"] <= 1, f"an error above its bound: {row}")
+
+
+def growth_exponent(rows):
+    """Of the cost, from the smallest to the largest system."""
+    import math
+
+    first, last = rows[0], rows[-1]
+    return math.log(last["ns_per_time"] / first["ns_per_time"]) / math.log(last["particles"] / first["particles"])
+
+
+def check_thesis(parts):
+    for row in of(parts["sizes"] + parts["aspect_ratios"], method="vitrel"):
+        expect(row["correction_moves"] == 0 and row["samples_with_overlap"] == 0, f"thesis: {row}")
+    for (method, shape), (low, high) in EXPONENTS.items():
+        found = growth_exponent(of(parts["sizes"], method=method, shape=shape, dynamics="Newtonian", stood_still=False))
+        expect(low <= found <= high, f"{method}, {shape}: cost as N^{found:.2f}")
+    expect(parts["energies"][-1]["energy_drift"] <= 1e-12, f"figure 4.6: {parts['energies'][-1]}")
+    for row in of(parts["relaxation"], dynamics="Newtonian")[-1:]:
+        expect(abs(row["energy"] - row["expected"]) <= 4 * row["standard_error"], f"figure 4.7: {row}")
+
+
+CHECKS = {"overlap": check_overlap, "contact-time": check_contact_time, "whole-run": check_whole_run, "engine": check_engine,
+          "sampling": check_sampling, "soft-contacts": check_soft_contacts, "analysis": check_analysis, "thesis": check_thesis}
+PARTS = tuple(CHECKS)
+
+
+def save_figures(page, folder):
+    """Every chart of the page as SVG, drawn by the page."""
+    sys.path.insert(0, str(ROOT / "tests/browser"))
+    from browser import Browser  # needed only here
+
+    folder.mkdir(parents=True, exist_ok=True)
+    with Browser(os.environ.get("CHROMIUM", "chromium")) as browser:
+        browser.resize(900, 700, "light")
+        browser.open(f"file://{page}")
+        for name, address in browser.evaluate(SVG):
+            folder.joinpath(name).write_text(urllib.parse.unquote(address.split(",", 1)[1]), encoding="utf-8")
+
+
+def write(build, name):
+    """Measures a study and writes its page, if it meets what is required; the first lines."""
+    with tempfile.TemporaryDirectory() as folder:
+        output_of([build / "bench/vitrel-bench", name, *OPTIONS.get(name, []), "-q", "-o", folder])
+        made = pathlib.Path(folder, name)
+        data = json.loads(made.with_suffix(".json").read_text(encoding="utf-8"))
+        CHECKS[name]({part["name"]: part["rows"] for part in data["parts"]})
+        FOLDER.mkdir(exist_ok=True)
+        text = made.with_suffix(".md").read_text(encoding="utf-8")
+        FOLDER.joinpath(f"{name}.md").write_text(text, encoding="utf-8")
+        save_figures(made.with_suffix(".html"), FOLDER / name)
+    return f"- [{data['question']}](studies/{name}.md)"
+
+
+def measure(build, parts=PARTS):
+    for name in parts:
+        write(build, name)
+    pages = [f"- [{FOLDER.joinpath(name + '.md').read_text(encoding='utf-8').splitlines()[0][2:]}](studies/{name}.md)"
+             for name in PARTS if FOLDER.joinpath(name + ".md").exists()]
+    return "Speed against accuracy of everything that has a choice; each page says where it was measured.\n\n" + "\n".join(pages)
