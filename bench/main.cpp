@@ -78,7 +78,8 @@ class CommandLine : public ProgramCommandLine {
                    "Stop cleanly after this many seconds (exit code 5)")
         ->check(not_negative);
     add_print(sub, "Numbers");
-    sub.add_flag("--quick", options.quick, "Few particles, short runs: to see that it works");
+    if (study.has_quick)
+      sub.add_flag("--quick", options.quick, "Few particles, short runs: to see that it works");
     sub.add_option("--seed", options.seed, "Seed of all random numbers (1)");
     if (std::ranges::any_of(study.parts,
                             [](const Part& part) { return !part.method_names.empty(); }))
@@ -90,10 +91,12 @@ class CommandLine : public ProgramCommandLine {
                "Pairs of each class; slow methods answer what their time allows");
     add_number(sub, "--seconds", options.seconds, "Seconds that a method may take");
     add_number(sub, "--duration", options.duration, "Simulated time of a run");
-    if (options.tolerance == 0) return;
-    add_number(sub, "--tolerance", options.tolerance,
-               "How far off still counts as correct: of the horizon for times, of the shortest "
-               "semi-axis for gaps");
+    if (!study.has_tolerance) return;
+    sub.add_option("--tolerance", options.tolerance,
+                   "How far off still counts as correct: of the horizon for times (1e-8, in space "
+                   "1e-12), of the shortest "
+                   "semi-axis for gaps (1e-8)")
+        ->check(positive);
     sub.add_option("--gap-tolerance", options.gap_tolerance,
                    "The same for gaps, if they have another one")
         ->check(positive);

@@ -86,12 +86,12 @@ Json rows_json(const std::vector<SurveyRow>& rows) {
 template <int Dim>
 Json measure(const StudyContext& context) {
   const StudyOptions& options = context.options;
-  const double gap = options.gap_tolerance > 0 ? options.gap_tolerance : options.tolerance;
-  SurveyRequestOf<Dim> request{{},
-                               selected(classes<Dim>(), options.classes),
-                               options.pairs,
-                               options.seed,
-                               {options.tolerance, gap}};
+  const double usual = Dim == 2 ? 1e-8 : 1e-12;
+  AllowedError allowed{usual, 1e-8};
+  if (options.tolerance > 0) allowed = {options.tolerance, options.tolerance};
+  if (options.gap_tolerance > 0) allowed.gap = options.gap_tolerance;
+  SurveyRequestOf<Dim> request{
+      {}, selected(classes<Dim>(), options.classes), options.pairs, options.seed, allowed};
   const std::string default_method = methods<Dim>().front().name;
   for (const MethodOf<Dim>& method : selected(methods<Dim>(), options.methods)) {
     request.candidates.push_back({method});
@@ -230,7 +230,9 @@ Study contact_time_study() {
                          "Two ellipsoids that overlap for a moment as they pass. The two roots "
                          "are so close that a scan for a change of sign steps over both.",
                          measure_passing_pair)},
-      .defaults = {.pairs = 2000, .seconds = 4, .tolerance = 1e-8, .gap_tolerance = 0}};
+      .defaults = {.pairs = 2000, .seconds = 4},
+      .has_tolerance = true,
+      .has_quick = false};
 }
 
 }  // namespace vitrel::bench

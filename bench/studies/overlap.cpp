@@ -182,7 +182,8 @@ Study overlap_study() {
                         "The same of ellipsoids. The truth is the completed criterion of the "
                         "signs of η in 80-bit arithmetic; as printed it calls crossed and nested "
                         "ellipsoids disjoint.")},
-      .defaults = {.pairs = 20000, .seconds = 1}};
+      .defaults = {.pairs = 20000, .seconds = 1},
+      .has_quick = false};
 }
 
 }  // namespace vitrel::bench

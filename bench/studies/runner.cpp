@@ -188,7 +188,7 @@ int run_study(const Study& study, const StudyOptions& options, const OutputOptio
   if (output.json)
     print_text(json_text(numbers, 2) + '\n');
   else if (!output.quiet)
-    print_text(parts_text(study, numbers, false).substr(1));
+    print_text(parts_text(study, numbers, false));
   if (is_stopped) {
     if (!output.quiet)
       fmt::print(stderr,

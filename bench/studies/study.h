@@ -31,7 +31,7 @@ struct StudyOptions {
   std::uint64_t pairs = 0;                                          ///< of each class
   double seconds = 0;                                               ///< that a method may take
   double duration = 0;                                              ///< simulated time
-  double tolerance = 0, gap_tolerance = 0;                          ///< what still counts as right
+  double tolerance = 0, gap_tolerance = 0;  ///< what still counts as right; 0: as usual
   std::uint64_t seed = 1;
   bool quick = false;  ///< few particles, short runs: to see that it works
 };
@@ -69,7 +69,8 @@ struct Study {
   std::string question;
   std::vector<Part> parts;
   StudyOptions defaults = {};
-  std::vector<std::string> settled = {};  ///< questions answered for good, with the commit
+  bool has_tolerance = false, has_quick = true;  ///< options
+  std::vector<std::string> settled = {};         ///< questions answered for good, with the commit
 };
 
 /// All of them.

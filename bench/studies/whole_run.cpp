@@ -88,7 +88,8 @@ Study whole_run_study() {
                  .varied = "tolerance",
                  .method_names = names_of(able_methods()),
                  .smallest_error = 1e-3}},
-      .defaults = {.duration = 100}};
+      .defaults = {.duration = 100},
+      .has_quick = false};
 }
 
 }  // namespace vitrel::bench

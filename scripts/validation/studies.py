@@ -11,7 +11,7 @@ from validation.common import ROOT, carnahan_starling, expect, output_of
 
 TITLE = "Studies"
 FOLDER = ROOT / "docs" / "studies"
-OPTIONS = {"contact-time": ["--pairs", "10000", "--seconds", "20", "--tolerance", "1e-12", "--gap-tolerance", "1e-8"],
+OPTIONS = {"contact-time": ["--pairs", "10000", "--seconds", "20"],
            "thesis": ["--seconds", "2"]}
 
 ERROR_OF_CARNAHAN_STARLING = 0.004  # in a dense liquid
