@@ -330,23 +330,31 @@ Json charts_of(const Part& part, const Json& rows) {
 
 std::string answer_of(const Part& part, const Json& rows) {
   if (rows.empty() || part.cost.key.empty()) return "";
-  std::string text;
   const std::vector<std::string> methods = methods_of(rows);
+  std::vector<std::string> right, wrong;
   for (const std::string& method : methods) {
     const Summary of = summary_of(part, rows, method);
-    if (of.cost.is_empty() && of.pairs == 0) continue;
+    if (of.wrong > 0) {
+      wrong.push_back(fmt::format("{} {} ({}: {})", method, share_text(of.wrong / of.pairs),
+                                  of.worst_case, share_text(of.worst)));
+      continue;
+    }
     std::vector<std::string> facts;
-    if (!part.verdicts.empty())
-      facts.push_back(of.wrong == 0 ? fmt::format("0 of {:.0f} wrong", of.pairs)
-                                    : fmt::format("{} wrong (at most {}: {})",
-                                                  share_text(of.wrong / of.pairs),
-                                                  share_text(of.worst), of.worst_case));
     if (method != methods.front() && !of.cost.is_empty())
       facts.push_back(of.cost.text() + " times the cost");
-    if (!of.error.is_empty()) facts.push_back("error up to " + error_text(of.error.high));
-    if (facts.empty()) continue;
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", method, fmt::join(facts, ", "));
+    if (of.error.high > 0 && !of.error.is_empty())
+      facts.push_back("error up to " + error_text(of.error.high));
+    if (!facts.empty() || of.pairs > 0)
+      right.push_back(facts.empty() ? method
+                                    : fmt::format("{} ({})", method, fmt::join(facts, ", ")));
   }
+  std::string text;
+  if (!right.empty())
+    text =
+        (part.verdicts.empty() ? "" : "Never wrong: ") + fmt::format("{}", fmt::join(right, "; "));
+  if (!wrong.empty())
+    text += (text.empty() ? "Wrong: " : ". Wrong, at most in: ") +
+            fmt::format("{}", fmt::join(wrong, "; "));
   return text.empty() ? text : text + ".";
 }
 
