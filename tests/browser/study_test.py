@@ -34,6 +34,7 @@ duration = 20
 """
 
 # The published studies in short form, and the charts and abscissa that their pages must have.
+NARROW = 400  # pictures in space are drawn by the processor
 SEED = 'sweep.grid.system.seed=[1, 2]'
 LENGTH = 'sweep.together.dynamics.duration=[20, 6, 2, 2, 1, 1]'
 STUDIES = {
@@ -184,7 +185,7 @@ class Studies(PageTest):
         for name, (settings, heading, charts) in STUDIES.items():
             with self.subTest(name):
                 study(name, ARTICLES / f"{name}.toml", *settings)
-                self.open(f"{name}.html")
+                self.open(f"{name}.html", NARROW)
                 self.assertEqual(self.text("study-heading"), heading)
                 self.assertLessEqual(set(charts), set(self.headings("study")))
                 jobs = self.data()["study"]["jobs"]["columns"]
