@@ -6,6 +6,7 @@ import pathlib
 import re
 import tempfile
 import textwrap
+import tomllib
 
 from validation.common import COLOURS, PARAMS, ROOT, expect, output_of, pyplot, settings, summary_of, table, write_figure
 
@@ -23,16 +24,25 @@ MIN_GROWTH = 1e3  # of τ_α relative to the cage, of both liquids
 
 # ---- running ----------------------------------------------------------------------------------------------
 
+def inline(value):
+    """As TOML: a number, or a table of numbers."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {entry}" for key, entry in value.items()) + " }"
+    return str(value)
+
+
 def reduced(name, folder):
     """The parameter file of a study with fewer particles, and of its densities only the lowest."""
     kept = 3 if name == AGEING else 6
     text = (PARAMS / f"{name}.toml").read_text(encoding="utf-8")
-    text = re.sub(r"^particles = .*", "particles = 400", text, flags=re.MULTILINE)
-    head, sweep = text.split("[sweep", 1)
-    sweep = re.sub(r"= \[(.*)\]", lambda found: f"= [{', '.join(found[1].split(', ')[:kept])}]", sweep)
+    head = re.sub(r"^particles = .*", "particles = 400", text.split("[sweep", 1)[0], flags=re.MULTILINE)
+    lines = []
+    for table, keys in tomllib.loads(text)["sweep"].items():
+        lines.append(f"[sweep.{table}]")
+        lines += [f'"{key}" = [{", ".join(map(inline, values[:kept]))}]' for key, values in keys.items()]
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{name}.toml"
-    file.write_text(f"{head}[sweep{sweep}", encoding="utf-8")
+    file.write_text(head + "\n".join(lines) + "\n", encoding="utf-8")
     return file
 
 
