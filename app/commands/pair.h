@@ -16,7 +16,7 @@ struct PairOptions {
   PairSource source;
   std::vector<std::string> methods;  ///< names in vitrel-bench; empty: that of the engine
   bool all_methods = false;          ///< all those of vitrel-bench
-  // Of a path:
+  // What `pair path` alone reads:
   std::optional<double> until;  ///< none: usual_end
   int points = 1000;
   std::filesystem::path output;  ///< empty: none

@@ -32,8 +32,8 @@ struct OverlapClass {
   double aspect_ratio = 2;
 };
 
-/// For several aspect ratios κ, the longest semi-axis over the shortest, bodies of unit a b (c) and their likes of up to twice
-/// the size; in space a quarter of them is prolate, a quarter oblate and the rest scalene:
+/// For several aspect ratios κ, the longest semi-axis over the shortest, bodies of unit a b (c) and their likes of up
+/// to twice the size; in space a quarter of them is prolate, a quarter oblate and the rest scalene:
 /// - random: centres anywhere within a₁ + a₂, so crossed and contained pairs are among them;
 /// - near_contact: a gap of up to ±0.1 of the gap unit;
 /// - grazing: a gap of ±10⁻³ … ±10⁻¹², evenly in its logarithm.
@@ -52,8 +52,8 @@ struct OverlapTruth {
 };
 
 /// The complete criterion of Vieillard-Baron, in space that of the five signs η, in 80-bit arithmetic: right unless the
-/// surfaces are closer than 1e-17 of their size. Of the criteria compared with it the one in double precision shares its
-/// formula, so what is tested there is the arithmetic; the proofs of the formulas are in
+/// surfaces are closer than 1e-17 of their size. Of the criteria compared with it the one in double precision shares
+/// its formula, so what is tested there is the arithmetic; the proofs of the formulas are in
 /// core/contact/ellipse_vieillard_baron.h and ellipsoid_eta.h.
 template <int Dim>
 OverlapTruth true_overlap(const OverlapCase<Dim>& asked);

@@ -3,7 +3,8 @@
 #include <stdexcept>
 
 /// @file
-/// Values of the literature, each once, for the studies and the tests. scripts/validation/common.py reads the table, too.
+/// Values of the literature, each once, for the studies and the tests. scripts/validation/common.py reads the table,
+/// too.
 namespace vitrel {
 
 /// Z = βP/ρ of a fluid of equal hard ellipses, of the infinite system; error 0: negligible, or not stated.
@@ -11,8 +12,8 @@ struct FluidPressure {
   double aspect_ratio, packing_fraction, z, error;
 };
 
-/// Disks: Kolafa & Rottner, Mol. Phys. 104, 3435 (2006). Ellipses: Monte Carlo at constant volume, N ≈ 400, for whose finite
-/// size 0.1 % must be allowed.
+/// Disks: Kolafa & Rottner, Mol. Phys. 104, 3435 (2006). Ellipses: Monte Carlo at constant volume, N ≈ 400, for whose
+/// finite size 0.1 % must be allowed.
 inline constexpr FluidPressure fluid_pressures[] = {
     {1, 0.3, 2.063261, 0},  {1, 0.5, 4.106364, 0}, {1, 0.6, 6.455337, 0},
     {1, 0.65, 8.408044, 0}, {2, 0.2, 1.6332, 0},   {2, 0.3, 2.1878, 0},

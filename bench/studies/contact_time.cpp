@@ -134,7 +134,7 @@ Json answers(const CollisionCaseOf<Dim>& asked, const std::vector<MethodOf<Dim>>
   return rows;
 }
 
-/// The scene of appendix B.1 of the thesis (thesis-elliptic-disks).
+/// The scene of appendix B.1 of the thesis (woetzel2012).
 Json measure_thesis_scene(const StudyContext&) {
   const Flight<Ellipse> resting{{1, 0.5}, {{0, 0}, 0}, {{0, 0}, 0}};
   const Flight<Ellipse> coming{{1, 0.5}, {{1, 1}, 0}, {{-1, 0}, std::numbers::pi}};

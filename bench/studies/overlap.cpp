@@ -18,12 +18,12 @@
 namespace vitrel::bench {
 namespace {
 
-/// Pairs whose gap is below this, in gap units, are left out: positions and semi-axes in double precision do not carry a
-/// smaller gap, and two right criteria may differ.
+/// Pairs whose gap is below this, in gap units, are left out: positions and semi-axes in double precision do not carry
+/// a smaller gap, and two right criteria may differ.
 constexpr double smallest_judged_gap = 1e-13;
 
-/// A way to tell whether two bodies are disjoint. Every one is asked with positions and orientations, so the sines and cosines
-/// are in its time.
+/// A way to tell whether two bodies are disjoint. Every one is asked with positions and orientations, so the sines and
+/// cosines are in its time.
 template <int Dim>
 struct Criterion {
   std::string name;

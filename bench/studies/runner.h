@@ -15,9 +15,9 @@ struct OutputOptions {
   bool quiet = false, json = false;
 };
 
-/// Measures the parts that are wanted, prints their tables, or with `json` the numbers, and writes the file. The numbers:
-/// study, question, parts (name, about, answer, rows) and provenance. Returns the exit code. Throws UserError for a part that
-/// the study does not have.
+/// Measures the parts that are wanted, prints their tables, or with `json` the numbers, and writes the file. The
+/// numbers: study, question, parts (name, about, answer, rows) and provenance. Returns the exit code. Throws UserError
+/// for a part that the study does not have.
 int run_study(const Study& study, const StudyOptions& options, const OutputOptions& output);
 
 /// The numbers as Markdown: the question, where it was measured, and of every part the sentence and the tables.

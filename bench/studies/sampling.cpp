@@ -254,8 +254,8 @@ class Passages {
   std::array<std::vector<double>, quantities> times_;
 };
 
-/// Denser and denser states of one liquid, each mixed by collective exchanges before it is measured. A method that has not
-/// forgotten one of them is left out of the next ones.
+/// Denser and denser states of one liquid, each mixed by collective exchanges before it is measured. A method that has
+/// not forgotten one of them is left out of the next ones.
 template <int Dim>
 void add_liquid(const StudyContext& context, const char* liquid, double aspect_ratio,
                 const std::vector<double>& packing_fractions, Json& rows) {

@@ -9,15 +9,16 @@
 #include "core/state/stage.h"
 
 /// @file
-/// The one form in which everything that is compared is declared. A study asks a question. Its parts measure rows: in each,
-/// one method answers the cases of one class, and its cost and its error come from the same run. The runner (runner.h) makes
-/// of any study the same JSON, tables and page.
+/// The one form in which everything that is compared is declared. A study asks a question. Its parts measure rows: in
+/// each, one method answers the cases of one class, and its cost and its error come from the same run. The runner
+/// (runner.h) makes of any study the same JSON, tables and page.
 namespace vitrel::bench {
 
 /// How the numbers of a column are shown.
 enum class Shown { text, count, number, time, error, share };
 
-/// A key of the rows. Times are in ns. The key of the method is "method"; rows may name their curve in the chart as "curve".
+/// A key of the rows. Times are in ns. The key of the method is "method"; rows may name their curve in the chart as
+/// "curve".
 struct Column {
   std::string key;
   std::string name = {};  ///< empty: the key

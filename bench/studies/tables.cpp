@@ -61,7 +61,7 @@ std::string case_name(const Part& part, const Json& row) {
   return name;
 }
 
-/// Of rows that methods share: they do not vary the same thing if there is an error to pay for it.
+/// Methods can be compared row by row if none of them buys a smaller error by what it varies.
 bool is_comparable(const Part& part) {
   return part.varied.empty() || part.error.key.empty();
 }

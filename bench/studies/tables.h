@@ -21,12 +21,12 @@ struct StudyTable {
   std::vector<std::vector<Cell>> rows;
 };
 
-/// Where which method gives how many wrong answers, in percent; the cost of each relative to the first, if nothing is varied;
-/// and all rows. "–": the method does not apply, as it answers not one of the cases. "·": none.
+/// Where which method gives how many wrong answers, in percent; the cost of each relative to the first, if nothing is
+/// varied; and all rows. "–": the method does not apply, as it answers not one of the cases. "·": none.
 std::vector<StudyTable> tables_of(const Part& part, const Json& rows);
 
-/// Cost against error, a panel for each class of cases and a curve for each method; cost against what is varied, if there is
-/// no error. As charts.js of the report page draws them, without colours.
+/// Cost against error, a panel for each class of cases and a curve for each method; cost against what is varied, if
+/// there is no error. As charts.js of the report page draws them, without colours.
 Json charts_of(const Part& part, const Json& rows);
 
 /// One sentence on the methods, from the numbers.

@@ -1,4 +1,4 @@
-// What do the figures of chapter 4 of the thesis (thesis-elliptic-disks) show with its program, and with this one?
+// What do the figures of chapter 4 of the thesis (woetzel2012) show with its program, and with this one?
 
 #include <fmt/format.h>
 
@@ -24,7 +24,8 @@ const char* dynamics_name(double tau) {
   return tau > 0 ? "Brownian" : "Newtonian";
 }
 
-/// Small systems run longer, so that all have as much to do; a run of the program of the thesis ends after some seconds.
+/// Small systems run longer, so that all have as much to do; a run of the program of the thesis ends after some
+/// seconds.
 Json row_of(const StudyContext& context, Program program, const ThesisScene& scene, double tau,
             const Configuration2& start) {
   RunLimits limits{context.options.duration, 1e9, tau, context.options.seed};

@@ -38,7 +38,7 @@ inline Quaternion any_orientation(Stream& draw) {
   return Quaternion(draw.normal(), v.x(), v.y(), v.z()).normalized();
 }
 
-/// Of unit a b c.
+/// A body of unit a b c.
 inline Ellipsoid any_shape(Stream& draw, double kappa) {
   const double kind = draw.uniform();
   const double middle = kind < 0.25 ? 1 : kind < 0.5 ? kappa : log_uniform(draw, 1, kappa);

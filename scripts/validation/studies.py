@@ -1,6 +1,7 @@
 """The studies of vitrel-bench: rewrites docs/studies, its tables, pages and figures, and checks what is required of them."""
 
 import json
+import math
 import os
 import pathlib
 import sys
@@ -16,6 +17,8 @@ OPTIONS = {"contact-time": ["--pairs", "10000", "--seconds", "20"],
 
 ERROR_OF_CARNAHAN_STARLING = 0.004  # in a dense liquid
 COST_RATIOS = {100_000: 1.6, 1_000_000: 2.5}  # of a collision, relative to 1000 particles
+ANALYSIS_EXPONENT = 1.15  # of the cost of motion, in frames, particles and time differences
+CHAINS_GAIN, COLLECTIVE_GAIN = 1.5, 2  # at least, over local moves and over motion
 EXPONENTS = {("vitrel", "ellipses"): (0.8, 1.3), ("vitrel", "circles"): (0.8, 1.3),
              ("thesis", "ellipses"): (1.7, 2.5), ("thesis", "circles"): (2.4, 3.2)}
 
@@ -60,7 +63,31 @@ def check_engine(parts):
         expect(ratio <= COST_RATIOS.get(row["particles"], ratio), f"a collision costs {ratio:.2f} times as much: {row}")
 
 
+def gain(rows, slow, fast, quantity):
+    """How many times as fast one method forgets as another, and the error of that; nothing where one of them is not known."""
+    found = [of(rows, method=method)[:1] for method in (slow, fast)]
+    if not all(row and row[0].get(quantity) for row in found):
+        return None
+    (one,), (other,) = found
+    value = one[quantity] / other[quantity]
+    return value, value * math.hypot(*(row[f"{quantity}_error"] / row[quantity] for row in (one, other)))
+
+
+def check_forgetting(rows):
+    """Chains forget places sooner than local moves. Where motion of disks and spheres is slow but can still be measured,
+    collective exchanges forget sizes sooner.
+    """
+    for liquid in sorted({row["liquid"] for row in rows}):
+        states = [of(rows, liquid=liquid, packing_fraction=phi) for phi in sorted({row["packing_fraction"] for row in of(rows, liquid=liquid)})]
+        for state in states:
+            if found := gain(state, "local moves", "chains", "places"):
+                expect(found[0] + 3 * found[1] > CHAINS_GAIN, f"{liquid}: event chains forget places only {found[0]:.2f} times as fast")
+        known = [found[0] for state in states if (found := gain(state, "motion", "chains, collective exchanges", "sizes"))]
+        expect(liquid == "ellipses" or (known and known[-1] > COLLECTIVE_GAIN), f"{liquid}: collective exchanges gain too little: {known}")
+
+
 def check_sampling(parts):
+    check_forgetting(parts["forgetting"])
     for row in parts["pressure"]:
         other = of(parts["pressure"], method="chains", shape=row["shape"], packing_fraction=row["packing_fraction"])[0]
         off = abs(row["z"] - other["z"]) / (row["z_error"] ** 2 + other["z_error"] ** 2 or 1) ** 0.5
@@ -88,23 +115,25 @@ def check_soft_contacts(parts):
 def check_analysis(parts):
     for row in of(parts["motion"], method="vitrel"):
         expect(row["difference"] <= 1e-9, f"means differ: {row}")
+    for varied in ("frames", "particles", "time differences"):
+        found = growth_exponent(of(parts["motion"], method="vitrel", varied=varied), "ns", "size")
+        expect(found <= ANALYSIS_EXPONENT, f"the analysis of motion costs {varied}^{found:.2f}")
     for row in of(parts["structure_factor"], method="transform"):
         expect(row["share_of_bound"] <= 1, f"an error above its bound: {row}")
 
 
-def growth_exponent(rows):
-    """Of the cost, from the smallest to the largest system."""
-    import math
-
+def growth_exponent(rows, cost, size):
+    """Of the cost, from the smallest to the largest size."""
     first, last = rows[0], rows[-1]
-    return math.log(last["ns_per_time"] / first["ns_per_time"]) / math.log(last["particles"] / first["particles"])
+    return math.log(last[cost] / first[cost]) / math.log(last[size] / first[size])
 
 
 def check_thesis(parts):
     for row in of(parts["sizes"] + parts["aspect_ratios"], method="vitrel"):
         expect(row["correction_moves"] == 0 and row["samples_with_overlap"] == 0, f"thesis: {row}")
     for (method, shape), (low, high) in EXPONENTS.items():
-        found = growth_exponent(of(parts["sizes"], method=method, shape=shape, dynamics="Newtonian", stood_still=False))
+        rows = of(parts["sizes"], method=method, shape=shape, dynamics="Newtonian", stood_still=False)
+        found = growth_exponent(rows, "ns_per_time", "particles")
         expect(low <= found <= high, f"{method}, {shape}: cost as N^{found:.2f}")
     expect(parts["energies"][-1]["energy_drift"] <= 1e-12, f"figure 4.6: {parts['energies'][-1]}")
     for row in of(parts["relaxation"], dynamics="Newtonian")[-1:]:

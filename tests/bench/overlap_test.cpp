@@ -103,7 +103,7 @@ TEST(OverlapCases, ArePureFunctionsOfTheirArgumentsAndOfTheirClass) {
 
 TEST(OverlapStudy, ExactCriteriaAreNeverWrongAndTheOthersWhereExpected) {
   StudyOptions options;
-  options.pairs = 5000, options.seconds = 600, options.seed = 7;
+  options.pairs = 20000, options.seconds = 600, options.seed = 7;
   nlohmann::ordered_json more;
   const RunControl control;
   for (const Part& part : overlap_study().parts) {
@@ -114,12 +114,15 @@ TEST(OverlapStudy, ExactCriteriaAreNeverWrongAndTheOthersWhereExpected) {
       const std::string method = row["method"];
       const double overlap = row["wrong_overlap"], disjoint = row["wrong_disjoint"];
       EXPECT_GT(row["ns_per_call"], 1);
-      EXPECT_EQ(row["pairs"], 5000);
-      // Without their last condition these take crossed and contained pairs for disjoint, and never the other way round.
+      EXPECT_EQ(row["pairs"], 20000);
+      // Without their last condition these take crossed and contained pairs for disjoint, and not the other way
+      // round, but for grazing ellipsoids, where the sign of η₁ alone is that of its rounding error.
       if (method.ends_with("_in_the_thesis") || method.ends_with("_as_printed")) {
-        EXPECT_EQ(overlap, 0);
+        if (method.ends_with("_in_the_thesis") || row["class"] != "grazing") {
+          EXPECT_EQ(overlap, 0);
+        }
         if (row["class"] == "random") {
-          EXPECT_GT(disjoint, 20);
+          EXPECT_GT(disjoint, (method.ends_with("_as_printed") ? 0.005 : 0.01) * 20000);
         }
       } else if (!method.starts_with("polygon")) {
         EXPECT_EQ(overlap + disjoint, 0);

@@ -132,7 +132,7 @@ TEST(EventChain, IsCutShortInAJammedRow) {
   EXPECT_LE(chains.counts().contacts, 100 * 1000u);
 }
 
-// Of ellipses another 0.1 % is allowed. 3.5 standard errors, a false alarm of 5e-4 each.
+// The limits are 3.5 standard errors, a false alarm of 5e-4 each; ellipses are allowed another 0.1 %.
 TEST(EventChain, HasTheEquationOfState) {
   for (const FluidPressure& at :
        {fluid_pressure(1, 0.3), fluid_pressure(1, 0.5), fluid_pressure(2, 0.5),

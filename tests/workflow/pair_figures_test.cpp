@@ -258,8 +258,8 @@ void expect_soft_is_integrated(const FigurePage& page, double tolerance) {
   }
 }
 
-// Velocities after the contact as in params/soft_pair.toml; of hard spheres they are v/4 along x, and v/2 along y less v
-// (n·v) n with n = (0.3, √0.91).
+// Velocities after the contact as in params/soft_pair.toml; of hard spheres they are v/4 along x, and v/2 along y less
+// v (n·v) n with n = (0.3, √0.91).
 TEST(ImpactPaths, AreThoseOfTheSource) {
   const FigurePage page = impact_paths(figure_6());
   ASSERT_EQ(values(page, "time").size(), 131u);

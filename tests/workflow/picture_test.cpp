@@ -151,7 +151,8 @@ TEST(Picture, FacesOfTheBoxCutBodiesFlat) {
   EXPECT_EQ(whole.scene.bodies.size(), 1u);
 }
 
-// Lines are 1/800 of the width, here two pixels. Along a diagonal the nearest and the farthest corner are both in the middle.
+// Lines are 1/800 of the width, here two pixels. Along a diagonal the nearest and the farthest corner are both in the
+// middle.
 TEST(Picture, EdgesOfTheBoxAreHiddenWhereTheyAreBehind) {
   const View diagonal{45, std::atan(std::sqrt(0.5)) * 180 / pi, true};
   Configuration3 one = one_ellipsoid(Vec3::Constant(4));

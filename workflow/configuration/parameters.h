@@ -127,7 +127,7 @@ struct SweepParameters {
   ParameterGrid together = {};  ///< the k-th values of all keys together
   std::vector<PublishedResult> published = {};
 
-  /// Of those that advance together, or else of the first key of the grid; 1 without both.
+  /// The number of values of the keys that advance together, or else of the first key of the grid; 1 without both.
   std::size_t first_axis_steps() const;
 };
 

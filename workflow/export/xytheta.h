@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// A trajectory in the plane as plain text, as the program that animates it in appendix B.3 of thesis-elliptic-disks reads
+/// A trajectory in the plane as plain text, as the program that animates it in appendix B.3 of woetzel2012 reads
 /// it: a line per frame and no header line,
 ///
 ///     t x₁ y₁ θ₁ x₂ y₂ θ₂ …
@@ -15,7 +15,8 @@ namespace vitrel {
 ///
 /// - x and y are wrapped into the box centred at the origin, as that program draws the square from −R/2 to R/2 and
 ///   nothing outside. A particle that leaves the box between two frames therefore jumps to the opposite side.
-/// - θ is the angle from the x axis to the major axis in radians, unwrapped: the program interpolates it between frames.
+/// - θ is the angle from the x axis to the major axis in radians, unwrapped: the program interpolates it between
+///   frames.
 ///
 /// The text has neither the box nor the shapes. The program computes them from NU, AR and PF, for equal particles with
 /// a b = 1 in a square box.

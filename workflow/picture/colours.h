@@ -17,9 +17,9 @@ using Colour = std::array<std::uint8_t, 3>;
 
 /// Viridis, for x from 0 to 1; beyond, its ends, and for NaN the first.
 Colour sequential_colour(double x);
-/// Of an axis in the plane: cyclic, once around in half a turn.
+/// The colour of an axis in the plane goes once around the circle of colours in half a turn.
 Colour orientation_colour(double angle);
-/// Of an axis w in space, of norm 1: the mixture of the colours of x, y and z with the shares w_k².
+/// The colour of an axis w in space, of norm 1, mixes those of x, y and z with the shares w_k².
 Colour orientation_colour(const Vec3& axis);
 Colour species_colour(std::int32_t species);
 

@@ -9,8 +9,8 @@
 
 namespace vitrel {
 
-/// A film (MP4), written by the program ffmpeg of PATH, which gets the images through a socket. It appears under its name
-/// when it is complete. Throws FileError; what ffmpeg complains about is on standard error.
+/// A film (MP4), written by the program ffmpeg of PATH, which gets the images through a socket. It appears under its
+/// name when it is complete. Throws FileError; what ffmpeg complains about is on standard error.
 class Film {
  public:
   /// Width and height must be even. UserError if there is no ffmpeg.

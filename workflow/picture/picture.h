@@ -31,8 +31,8 @@ struct WrittenPicture {
   ImportReport import = {};
 };
 
-/// Draws frames of a trajectory; the output appears under its name when it is complete. Nothing if the run control stopped
-/// it: then there is no output. Throws UserError and FileError.
+/// Draws frames of a trajectory; the output appears under its name when it is complete. Nothing if the run control
+/// stopped it: then there is no output. Throws UserError and FileError.
 std::optional<WrittenPicture> write_picture(const PictureRequest& request,
                                             const RunControl& control);
 

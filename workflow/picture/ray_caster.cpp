@@ -120,7 +120,7 @@ class Band {
     const double length = norm(half.head<2>()), high = std::abs(half.y());
     for_rows(middle.y(), high + reach, [&](int row) {
       const double y = raster_.y(row) - middle.y();
-      // Of the whole row, or where a line without ends would be.
+      // A line along the row may cover all of it; any other covers what a line without ends would.
       const bool flat = high <= reach;
       const double at = flat ? 0 : y * half.x() / half.y();
       const double wide = flat ? std::abs(half.x()) + reach : reach * length / high;

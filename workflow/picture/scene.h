@@ -18,8 +18,8 @@ constexpr Colour background = {255, 255, 255}, edge_colour = {27, 31, 36};
 /// The colour of the rim of a body in the plane.
 Colour rim_of(const Colour& colour);
 
-/// How bodies in space are shown, by parallel rays. The camera is at (cos ε cos α, cos ε sin α, sin ε) from the middle of
-/// the box, with the azimuth α and the elevation ε in degrees; z is upwards.
+/// How bodies in space are shown, by parallel rays. The camera is at (cos ε cos α, cos ε sin α, sin ε) from the middle
+/// of the box, with the azimuth α and the elevation ε in degrees; z is upwards.
 struct View {
   double azimuth = 304, elevation = 24;
   /// Every particle once and whole, not all images cut at the faces of the box.

@@ -34,7 +34,7 @@ struct Figure {
   bool shows_zero = false;
   std::optional<std::pair<double, std::string>> mark = {};  ///< an upright line
   std::vector<Disk> outlines = {};                          ///< dashed, of paths
-  // Of a map:
+  // What only a map has:
   std::string value = {};     ///< the column of the colours
   std::size_t first_row = 0;  ///< x runs faster than y
   std::size_t side = 0;

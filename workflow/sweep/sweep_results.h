@@ -25,8 +25,8 @@ struct AnalysedSweep {
 };
 
 /// What only prepares a state has the summary of its preparation; that of a run also has its overlaps, the exceptions
-/// of soft particles and its cost. Their results are those in their folders; with parameters of its own, the choice has the
-/// runs analysed again, and what is in the folders stays. Throws FileError or UserError, naming the file.
+/// of soft particles and its cost. Their results are those in their folders; with parameters of its own, the choice has
+/// the runs analysed again, and what is in the folders stays. Throws FileError or UserError, naming the file.
 AnalysedSweep analysed_sweep(const SweepProgress& sweep, const AnalysisChoice& choice,
                              const AnalysisProgress& progress = {});
 
@@ -37,8 +37,9 @@ GlassStudy glass_study(const AnalysedSweep& sweep);
 /// Table `runs` has a row for every job, in their order: its name, the values of the keys, the seed, the summary of its
 /// analysis, relaxation times and verdicts. If the sweep runs through seeds, `seeds` has averages over them
 /// (seed_averages.h). What publications say stands beside it in `published` and `published_exponents`
-/// (published_tables.h). The tables of the glass study follow. In the provenance are the files of the rows, row_0 …, and
-/// the names of columns of both tables: `axis`, the abscissa of charts, and `series`, which tell curves apart, with commas.
+/// (published_tables.h). The tables of the glass study follow. In the provenance are the files of the rows, row_0 …,
+/// and the names of columns of both tables: `axis`, the abscissa of charts, and `series`, which tell curves apart, with
+/// commas.
 Results results_of_sweep(const AnalysedSweep& sweep, const GlassStudy& study);
 
 }  // namespace vitrel
