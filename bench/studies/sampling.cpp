@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/structure/structure_factor.h"
 #include "bench/studies/sampling_method.h"
 #include "bench/studies/study.h"
 #include "bench/surveys/engine_speed.h"
@@ -17,6 +18,7 @@
 #include "core/error.h"
 #include "core/state/check.h"
 #include "core/state/species.h"
+#include "mc/compression.h"
 #include "mc/insertion.h"
 #include "mc/place_correlation.h"
 #include "mc/swelling.h"
@@ -103,11 +105,20 @@ void require_no_overlap(const auto& method) {
 
 // ---- the error of Z ---------------------------------------------------------------------------------
 
-/// Z from blocks, and the processor time until its standard error is a thousandth.
+/// Z, and the processor time until its standard error is a thousandth.
+Json sampled_pressure(const std::string& method, const Mean& z, double seconds) {
+  constexpr double wanted = 1e-3;
+  const double times = z.error / (wanted * z.value);
+  return {{"method", method},
+          {"ns", 1e9 * seconds * times * times},
+          {"z", z.value},
+          {"z_error", z.error}};
+}
+
+/// From blocks.
 template <int Dim>
 Json pressure_row(SamplingMethod<Dim>& method, const Effort& effort) {
   constexpr int blocks = 20;
-  constexpr double wanted = 1e-3;
   mix(method, 0.1 * effort.mixing);
   method.compressibility();
   std::vector<double> values;
@@ -122,12 +133,52 @@ Json pressure_row(SamplingMethod<Dim>& method, const Effort& effort) {
   }
   method.write();
   require_no_overlap(method);
-  const Mean z = mean_of(values);
-  const double times = z.error / (wanted * z.value);
-  return {{"method", method.name},
-          {"ns", 1e9 * seconds * times * times},
-          {"z", z.value},
-          {"z_error", z.error}};
+  return sampled_pressure(method.name, mean_of(values), seconds);
+}
+
+template <int Dim>
+SamplingMethods<Dim> plain_methods(const Configuration<Dim>& start) {
+  SamplingMethods<Dim> methods;
+  methods.push_back(std::make_unique<Motion<Dim>>(start));
+  methods.push_back(std::make_unique<LocalMoves<Dim>>("local moves", start));
+  methods.push_back(std::make_unique<Chains<Dim>>("chains", start));
+  return methods;
+}
+
+/// At the constant pressure that belongs to Z, by the packing fraction that is found: with it βP/ρ is known at φ, too, as
+/// d ln P/d ln φ = 1/(N Z var(ln φ)) follows from the fluctuations.
+template <int Dim>
+Json constant_pressure_row(Configuration<Dim> state, double z, const Effort& effort) {
+  constexpr int blocks = 20;
+  const double particles = static_cast<double>(state.size()), volume = state.box.volume();
+  PressureSampler<Dim> sampler(state, z * particles / volume, BoxChange::isotropic, 13);
+  const auto sweeps_for = [&](double seconds, auto&& after) {
+    const double begin = processor_seconds();
+    for (int sweeps = 0; sweeps < 10 || processor_seconds() - begin < seconds; ++sweeps) {
+      sampler.sweep();
+      after(sweeps);
+    }
+    return processor_seconds() - begin;
+  };
+  sweeps_for(0.1 * effort.mixing, [&](int sweeps) {
+    if (sweeps % 20 == 19) sampler.tune();
+  });
+  std::vector<double> means;
+  double seconds = 0, sum = 0, square = 0, count = 0;
+  for (int block = 0; block < blocks; ++block) {
+    double of_block = 0, in_block = 0;
+    seconds += sweeps_for(effort.seconds / blocks, [&](int) {
+      const double x = volume / state.box.volume() - 1;
+      of_block += x, sum += x, square += x * x, ++in_block, ++count;
+    });
+    means.push_back(of_block / in_block);
+  }
+  if (!exact_check(state).clean()) throw InvariantError("constant pressure: overlap");
+  const double variance = square / count - sum * sum / count / count;
+  const double slope = 1 / (particles * z * variance);
+  const Mean excess = mean_of(means);  // of the density
+  return sampled_pressure("constant pressure",
+                          {z * (1 - slope * excess.value), z * slope * excess.error}, seconds);
 }
 
 template <int Dim>
@@ -138,14 +189,13 @@ void add_pressures(const StudyContext& context, const char* shape, double aspect
   for (const double phi : packing_fractions) {
     if (context.control.stop_requested()) return;
     c = mixed(swollen(c, phi), effort.mixing, none);
-    SamplingMethods<Dim> methods;
-    methods.push_back(std::make_unique<Motion<Dim>>(c));
-    methods.push_back(std::make_unique<LocalMoves<Dim>>("local moves", c));
-    methods.push_back(std::make_unique<Chains<Dim>>("chains", c));
-    for (const auto& method : methods) {
+    const Json about = {{"shape", shape}, {"packing_fraction", phi}};
+    for (const auto& method : plain_methods(c)) {
       rows.push_back(pressure_row(*method, effort));
-      rows.back().update({{"shape", shape}, {"packing_fraction", phi}});
+      rows.back().update(about);
     }
+    rows.push_back(constant_pressure_row(c, rows.back()["z"].template get<double>(), effort));
+    rows.back().update(about);
   }
 }
 
@@ -156,6 +206,75 @@ Json measure_pressure(const StudyContext& context) {
   add_pressures<2>(context, "κ = 6", 6, {0.3, 0.5, 0.6}, rows);
   add_pressures<3>(context, "spheres", 1, {0.2, 0.3, 0.4, 0.49}, rows);
   add_pressures<3>(context, "spheroids 3", 3, {0.2, 0.3, 0.4}, rows);
+  return rows;
+}
+
+// ---- the error of S(q) --------------------------------------------------------------------------------
+
+/// Processor time until the standard error of S(q) is a hundredth, in the first shell and in that of the main peak, without
+/// the time to compute S(q).
+template <int Dim>
+Json structure_row(SamplingMethod<Dim>& method, const Effort& effort) {
+  constexpr int blocks = 20, samples = 10;
+  constexpr double wanted = 1e-2;
+  const ScatteringShells<Dim> shells(method.state.box.lengths(),
+                                     {.wave_number_max = 5, .wave_number_step = 0.2});
+  mix(method, 0.1 * effort.mixing);
+  std::vector<std::vector<double>> of_block;
+  double seconds = 0;
+  for (int block = 0; block < blocks; ++block) {
+    std::vector<double> sum;
+    for (int sample = 0; sample < samples; ++sample) {
+      const double begin = processor_seconds();
+      do method.sweep();
+      while (processor_seconds() - begin < effort.seconds / (blocks * samples));
+      seconds += processor_seconds() - begin;
+      method.write();
+      const std::vector<double> now = shells.structure_factor(method.state).total;
+      sum.resize(now.size());
+      for (std::size_t k = 0; k < now.size(); ++k) sum[k] += now[k] / samples;
+    }
+    of_block.push_back(sum);
+  }
+  require_no_overlap(method);
+  Json row = {{"method", method.name}};
+  const auto add = [&](const std::string& name, std::size_t shell) {
+    std::vector<double> values;
+    for (const std::vector<double>& one : of_block) values.push_back(one[shell]);
+    const Mean mean = mean_of(values);
+    const double times = mean.error / (wanted * mean.value);
+    row[name] = 1e9 * seconds * times * times;
+    row[name + "_s"] = mean.value;
+  };
+  const std::vector<double>& last = of_block.back();
+  const auto known = [](double s) { return !std::isnan(s); };
+  const auto first = std::ranges::find_if(last, known);
+  const auto peak = std::ranges::max_element(last, {}, [&](double s) { return known(s) ? s : -1; });
+  add("longest", static_cast<std::size_t>(first - last.begin()));
+  add("peak", static_cast<std::size_t>(peak - last.begin()));
+  return row;
+}
+
+template <int Dim>
+void add_structures(const StudyContext& context, const char* shape, double aspect_ratio,
+                    std::initializer_list<double> packing_fractions, Json& rows) {
+  const Effort effort = effort_of(context);
+  Configuration<Dim> c = dilute_liquid<Dim>(equal_particles(aspect_ratio), effort.particles);
+  for (const double phi : packing_fractions) {
+    c = mixed(swollen(c, phi), effort.mixing, none);
+    for (const auto& method : plain_methods(c)) {
+      if (context.control.stop_requested()) return;
+      rows.push_back(structure_row(*method, effort));
+      rows.back().update({{"shape", shape}, {"packing_fraction", phi}});
+    }
+  }
+}
+
+Json measure_structure(const StudyContext& context) {
+  Json rows = Json::array();
+  add_structures<2>(context, "disks", 1, {0.3, 0.5, 0.7}, rows);
+  add_structures<2>(context, "κ = 2", 2, {0.3, 0.5, 0.7}, rows);
+  add_structures<3>(context, "spheres", 1, {0.2, 0.49}, rows);
   return rows;
 }
 
@@ -348,13 +467,26 @@ Study sampling_study() {
       .question =
           "Which way of sampling a hard liquid in equilibrium gives most for the processor time?",
       .parts = {{.name = "pressure",
-                 .about = "Processor time on one thread until the standard error of Z = βP/ρ is "
-                          "0.1 %, from 20 blocks: motion by the virial, local moves by the "
-                          "contact function, event chains by the contacts of the chains.",
+                 .about =
+                     "Processor time on one thread until the standard error of Z = βP/ρ is "
+                     "0.1 %, from 20 blocks: motion by the virial, local moves by the "
+                     "contact function, event chains by the contacts of the chains; Monte Carlo "
+                     "at constant pressure by the packing fraction and its fluctuations.",
                  .measure = measure_pressure,
                  .cases = {{"shape"}},
                  .cost = {"ns", "time for 0.1 %", Shown::time},
                  .others = {{"z", "Z"}, {"z_error", "its error", Shown::error}},
+                 .varied = "packing_fraction"},
+                {.name = "structure",
+                 .about = "Processor time on one thread until the standard error of S(q) is 1 %, "
+                          "from 20 blocks, at the longest wavelengths and at the main peak; that "
+                          "of computing S(q) is not counted.",
+                 .measure = measure_structure,
+                 .cases = {{"shape"}},
+                 .cost = {"longest", "time for 1 % of S at the longest wavelengths", Shown::time},
+                 .others = {{"longest_s", "S"},
+                            {"peak", "time for 1 % of S at the peak", Shown::time},
+                            {"peak_s", "S at the peak"}},
                  .varied = "packing_fraction"},
                 {.name = "forgetting",
                  .about = "A liquid of sizes ∝ σ⁻³ with a standard deviation of 23 %, mixed by "

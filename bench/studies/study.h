@@ -80,6 +80,8 @@ const std::vector<Study>& studies();
 Study overlap_study();
 Study contact_time_study();
 Study whole_run_study();
+Study brownian_step_study();
+Study dense_study();
 Study engine_study();
 Study sampling_study();
 Study soft_contact_study();

@@ -145,6 +145,7 @@ Cell cost_cell(const Part& part, const Json& row, const Json* first) {
   const std::string text = text_at(row, part.cost);
   if (!first || first == &row) return {text};
   const double times = number_at(row, part.cost.key) / number_at(*first, part.cost.key);
+  if (std::isnan(times)) return {text};
   return {fmt::format("{} ({})", text, ratio_text(times))};
 }
 
