@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/overlap/limited_search.h"
 #include "bench/overlap/overlap_case.h"
 #include "bench/overlap/polygon.h"
 #include "bench/studies/choice.h"
@@ -28,7 +29,7 @@ template <int Dim>
 struct Criterion {
   std::string name;
   std::function<bool(const OverlapCase<Dim>&)> disjoint;
-  bool is_polygon = false;
+  std::string curve = {};  ///< of criteria that differ in one number
 };
 
 VieillardBaron<double> contact_function(const OverlapCase<2>& asked) {
@@ -57,6 +58,15 @@ bool by_perram_wertheim_in_space(const OverlapCase<3>& asked) {
       .disjoint();
 }
 
+template <int Dim>
+void add_limited_searches(std::vector<Criterion<Dim>>& all) {
+  for (int steps = 4; steps <= 64; steps *= 2)
+    all.push_back(
+        {fmt::format("undecided_is_disjoint_{}", steps),
+         [steps](const OverlapCase<Dim>& asked) { return disjoint_or_undecided(asked, steps); },
+         "undecided_is_disjoint"});
+}
+
 std::vector<Criterion<2>> criteria(std::integral_constant<int, 2>) {
   std::vector<Criterion<2>> all = {
       {"separating_axis", by_separating_axis<2>},
@@ -70,18 +80,22 @@ std::vector<Criterion<2>> criteria(std::integral_constant<int, 2>) {
                    [shape = RegularPolygon(vertices)](const OverlapCase<2>& asked) {
                      return disjoint(shape, asked);
                    },
-                   true});
+                   "polygons"});
+  add_limited_searches(all);
   return all;
 }
 
 std::vector<Criterion<3>> criteria(std::integral_constant<int, 3>) {
-  return {{"separating_axis", by_separating_axis<3>},
-          {"perram_wertheim", by_perram_wertheim_in_space},
-          {"eta_signs", [](const OverlapCase<3>& asked) { return signs(asked).disjoint(); }},
-          {"eta_signs_as_printed", [](const OverlapCase<3>& asked) {
-             const EllipsoidEta<double> of = signs(asked);
-             return of.eta1 > 0 && of.eta2 > 0 && of.eta5 > 0;
-           }}};
+  std::vector<Criterion<3>> all = {
+      {"separating_axis", by_separating_axis<3>},
+      {"perram_wertheim", by_perram_wertheim_in_space},
+      {"eta_signs", [](const OverlapCase<3>& asked) { return signs(asked).disjoint(); }},
+      {"eta_signs_as_printed", [](const OverlapCase<3>& asked) {
+         const EllipsoidEta<double> of = signs(asked);
+         return of.eta1 > 0 && of.eta2 > 0 && of.eta5 > 0;
+       }}};
+  add_limited_searches(all);
+  return all;
 }
 
 template <int Dim>
@@ -126,7 +140,7 @@ Json examined(const Criterion<Dim>& criterion, const OverlapClass& of, const Ask
     done += batch;
   }
   Json row = {{"method", criterion.name}, {"class", of.name}, {"aspect_ratio", of.aspect_ratio}};
-  if (criterion.is_polygon) row["curve"] = "polygons";
+  if (!criterion.curve.empty()) row["curve"] = criterion.curve;
   row.update({{"pairs", done},
               {"wrong_overlap", wrong_overlap},
               {"wrong_disjoint", wrong_disjoint},

@@ -79,6 +79,7 @@ const std::vector<Study>& studies();
 
 Study overlap_study();
 Study contact_time_study();
+Study peers_study();
 Study whole_run_study();
 Study brownian_step_study();
 Study dense_study();
