@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/dynamics/displacement.h"
+#include "analysis/dynamics/multiple_tau.h"
+#include "analysis/structure/fourier_arrays.h"
 #include "analysis/structure/structure_factor.h"
 #include "bench/studies/study.h"
 #include "bench/surveys/best_seconds.h"
@@ -20,8 +22,11 @@ struct Size {
   std::size_t frames, particles, lags, threads;
 };
 
-MemoryTrajectory2 random_walks(const Size& size) {
-  Stream draw(1, Purpose::benchmark_cases);
+/// Of a particle in every direction, at every step; the standard deviation of its turns is the same.
+constexpr double step = 0.1;
+
+MemoryTrajectory2 random_walks(const Size& size, std::uint64_t seed = 1) {
+  Stream draw(seed, Purpose::benchmark_cases);
   Configuration2 now;
   now.species_names = {"A"};
   now.box = PeriodicBox<2>(Vec2(30, 30));
@@ -32,9 +37,9 @@ MemoryTrajectory2 random_walks(const Size& size) {
     now.time = static_cast<double>(k);
     for (std::size_t i = 0; i < now.size(); ++i) {
       const double x = draw.normal(), y = draw.normal();
-      now.position[i] += 0.1 * Vec2(x, y);
+      now.position[i] += step * Vec2(x, y);
       now.box.wrap(now.position[i], now.image[i]);
-      now.angle[i] += 0.1 * draw.normal();
+      now.angle[i] += step * draw.normal();
     }
     frames.push_back(now);
   }
@@ -132,6 +137,120 @@ Json measure_motion(const StudyContext& context) {
   return rows;
 }
 
+// ---- estimators of motion -----------------------------------------------------------------------------
+
+using Curve = std::vector<std::pair<std::size_t, double>>;  ///< steps, mean squared displacement
+
+Curve by_displacements(MemoryTrajectory2& run, const Size& size, std::size_t origins) {
+  DisplacementOptions options = options_of(size);
+  options.axis.max_origins = origins;
+  options.parts = {.scattering = false, .orientation = false, .overlap = false};
+  const Displacements found = displacements(run, options);
+  const std::vector<Lag> lags = time_axis(run.times(), options.axis);
+  Curve curve;
+  for (std::size_t l = 0; l < lags.size(); ++l)
+    curve.emplace_back(lags[l].frames, found.groups.front().translation.value[l]);
+  return curve;
+}
+
+Curve by_multiple_tau(MemoryTrajectory2& run, const Size& size) {
+  MultipleTau<2> correlator(run.read(0), {1, static_cast<double>(size.lags), {}});
+  for (std::size_t k = 0; k < run.frames(); ++k)
+    correlator.observe({static_cast<std::int64_t>(k), run.read(k), {}});
+  const CorrelatedGroup all = correlator.correlations().front();
+  const auto column = [&](const char* name) {
+    return std::ranges::find(all.columns, name, &vitrel::Column::name)->value;
+  };
+  const std::vector<double> time = column("time"), msd = column("msd");
+  Curve curve;
+  for (std::size_t l = 0; l < time.size(); ++l) curve.emplace_back(std::llround(time[l]), msd[l]);
+  return curve;
+}
+
+/// From all origins: ⟨r(t)²⟩ + ⟨r(0)²⟩ by running sums, and ⟨r(t)·r(0)⟩ by Fourier transforms of twice the length.
+Curve by_transforms(MemoryTrajectory2& run, const Size& size) {
+  const std::size_t frames = run.frames(), length = 2 * frames;
+  const FourierArray<double> path = real_array(length);
+  const FourierArray<fftw_complex> modes = complex_array(frames + 1);
+  const int n = static_cast<int>(length);
+  const FourierPlan forward(
+      frames + 1, [&] { return fftw_plan_dft_r2c_1d(n, path.get(), modes.get(), FFTW_ESTIMATE); });
+  const FourierPlan backward(
+      frames + 1, [&] { return fftw_plan_dft_c2r_1d(n, modes.get(), path.get(), FFTW_ESTIMATE); });
+  std::vector<double> sums(size.lags + 1);
+  for (std::size_t i = 0; i < size.particles; ++i)
+    for (int axis = 0; axis < 2; ++axis) {
+      std::vector<double> squares(frames);
+      double all = 0;
+      for (std::size_t k = 0; k < frames; ++k) {
+        path[k] = run.read(k).unwrapped(i)[axis] - run.read(0).unwrapped(i)[axis];
+        path[k + frames] = 0;
+        squares[k] = path[k] * path[k];
+        all += 2 * squares[k];
+      }
+      fftw_execute(forward.get());
+      for (std::size_t k = 0; k <= frames; ++k) {
+        modes[k][0] = modes[k][0] * modes[k][0] + modes[k][1] * modes[k][1];
+        modes[k][1] = 0;
+      }
+      fftw_execute(backward.get());
+      for (std::size_t lag = 1; lag <= size.lags; ++lag) {
+        all -= squares[lag - 1] + squares[frames - lag];
+        sums[lag] += all - 2 * path[lag] / static_cast<double>(length);
+      }
+    }
+  Curve curve;
+  for (std::size_t lag = 1; lag <= size.lags; ++lag)
+    curve.emplace_back(lag, sums[lag] / static_cast<double>((frames - lag) * size.particles));
+  return curve;
+}
+
+/// Σ (relative deviation from 2 · step² t in the plane)² over the time differences that all estimators have.
+double squared_deviation(const Curve& curve) {
+  double sum = 0, count = 0;
+  for (const auto& [steps, msd] : curve) {
+    if (steps == 0 || (steps & (steps - 1)) != 0) continue;  // powers of two
+    const double exact = 2 * step * step * static_cast<double>(steps);
+    sum += (msd / exact - 1) * (msd / exact - 1), ++count;
+  }
+  return sum / count;
+}
+
+Json measure_estimators(const StudyContext& context) {
+  const bool quick = context.options.quick;
+  const Size size{quick ? 500u : 4000u, quick ? 10u : 100u, 100, 1};
+  struct Estimator {
+    std::string name;
+    Json origins;
+    std::function<Curve(MemoryTrajectory2&)> curve;
+    double seconds = 0, square = 0;
+  };
+  std::vector<Estimator> all;
+  for (const std::size_t origins : {4096, 1024, 256, 64, 16})
+    all.push_back({origins == 4096 ? "all origins" : "thinned origins", origins,
+                   [=](MemoryTrajectory2& run) { return by_displacements(run, size, origins); }});
+  all.push_back({"transforms", size.frames,
+                 [=](MemoryTrajectory2& run) { return by_transforms(run, size); }});
+  all.push_back({"multiple tau", size.frames,
+                 [=](MemoryTrajectory2& run) { return by_multiple_tau(run, size); }});
+  const std::uint64_t seeds = quick ? 2 : 16;
+  for (std::uint64_t seed = 1; seed <= seeds && !context.control.stop_requested(); ++seed) {
+    MemoryTrajectory2 run = random_walks(size, seed);
+    for (Estimator& one : all) {
+      Curve curve;
+      one.seconds += best_seconds(1, [&] { curve = one.curve(run); }) / static_cast<double>(seeds);
+      one.square += squared_deviation(curve) / static_cast<double>(seeds);
+    }
+  }
+  Json rows = Json::array();
+  for (const Estimator& one : all)
+    rows.push_back({{"method", one.name},
+                    {"origins", one.origins},
+                    {"ns", 1e9 * one.seconds},
+                    {"error", std::sqrt(one.square)}});
+  return rows;
+}
+
 // ---- structure factor -------------------------------------------------------------------------------
 
 Configuration2 fluid_of_ellipses(std::size_t particles) {
@@ -194,6 +313,16 @@ Study analysis_study() {
                  .cost = time_of_all,
                  .others = {{"difference", "largest difference of a mean", Shown::error}},
                  .varied = "size"},
+                {.name = "estimators",
+                 .about = "The mean squared displacement of 100 random walks of 4000 steps, up to "
+                          "64 steps, on one thread. The error is the root mean square deviation "
+                          "from 2 d D t, over 16 walks. The first two have standard errors, which "
+                          "are in their time; transforms have none.",
+                 .measure = measure_estimators,
+                 .cases = {},
+                 .cost = time_of_all,
+                 .error = {"error", "relative error of the MSD", Shown::error},
+                 .varied = "origins"},
                 {.name = "structure_factor",
                  .about = "Ellipses with κ = 4 at φ = 0.3. Centres and orientations in shells up "
                           "to q = 12, by a B-spline grid of order 12 and by sums over the same "
