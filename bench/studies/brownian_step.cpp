@@ -26,7 +26,7 @@ struct Liquid {
 };
 const std::vector<Liquid> liquids = {
     {0.3, 8, 1, 0.01}, {0.5, 8, 1, 0.01}, {0.7, 20, 1, 0.02}, {0.8, 60, 20, 0.05}};
-const std::vector<double> steps = {0.01, 0.03, 0.1, 0.3, 1};
+const std::vector<double> steps = {0.03, 0.1, 0.3, 1};
 
 struct Effort {
   int particles = 400;
@@ -34,7 +34,7 @@ struct Effort {
   std::size_t liquids = 4, first_step = 0;
   double share = 1;  ///< of the duration
 };
-const Effort quick{50, 1, 1, 2, 0.5};
+const Effort quick{50, 1, 1, 1, 0.5};
 
 std::string system_text(const Effort& effort, const Liquid& liquid, std::uint64_t seed) {
   return fmt::format(R"([system]

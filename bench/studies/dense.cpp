@@ -130,7 +130,7 @@ Json measure_densities(const StudyContext& context) {
     std::set<std::string> failed;
     for (const double phi : system.packing_fractions)
       for (const Way& way : ways) {
-        if (context.control.stop_requested() || (quick && phi > 0.7)) break;
+        if (context.control.stop_requested() || (quick && phi > system.packing_fractions[0])) break;
         if (failed.contains(way.name)) continue;
         const End end =
             prepared(preparation_text(system, particles, phi, way), seconds, context.control);

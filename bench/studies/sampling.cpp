@@ -272,6 +272,10 @@ void add_structures(const StudyContext& context, const char* shape, double aspec
 
 Json measure_structure(const StudyContext& context) {
   Json rows = Json::array();
+  if (context.options.quick) {
+    add_structures<2>(context, "disks", 1, {0.3}, rows);
+    return rows;
+  }
   add_structures<2>(context, "disks", 1, {0.3, 0.5, 0.7}, rows);
   add_structures<2>(context, "κ = 2", 2, {0.3, 0.5, 0.7}, rows);
   add_structures<3>(context, "spheres", 1, {0.2, 0.49}, rows);

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <limits>
 #include <utility>
+
+#include "bench/surveys/engine_speed.h"
 
 namespace vitrel::bench {
 
@@ -20,7 +21,7 @@ class TimedBatches {
   using Clock = std::function<double()>;
 
   explicit TimedBatches(double seconds = std::numeric_limits<double>::infinity(),
-                        Clock clock = steady_clock)
+                        Clock clock = processor_seconds)
       : clock_(std::move(clock)), seconds_left_(seconds) {}
 
   /// How many of the `left` questions to ask next; 0 when the control is used up.
@@ -53,10 +54,6 @@ class TimedBatches {
   double ns_per_call() const { return 1e9 * seconds_ / static_cast<double>(calls_); }
 
  private:
-  static double steady_clock() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-  }
   int repeats() const { return seconds_ < 1e-3 * static_cast<double>(calls_) ? 3 : 1; }
 
   Clock clock_;

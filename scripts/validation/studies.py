@@ -19,6 +19,9 @@ ERROR_OF_CARNAHAN_STARLING = 0.004  # in a dense liquid
 COST_RATIOS = {100_000: 1.6, 1_000_000: 2.5}  # of a collision, relative to 1000 particles
 ANALYSIS_EXPONENT = 1.15  # of the cost of motion, in frames, particles and time differences
 CHAINS_GAIN, COLLECTIVE_GAIN = 1.5, 2  # at least, over local moves and over motion
+LONGEST_ACCURATE_STEP, ITS_DEVIATION = 0.1, 0.04  # of τα, beyond twice its error; the default step
+WARNED_STEP, LEAST_DEVIATION = 0.3, 0.06
+REACHED = {"disks, 1 : 1.4": 0.83, "κ = 1.4, 1 : 1.4": 0.86, "κ = 2": 0.8, "κ = 6": 0.8}  # by growth at the default rate
 EXPONENTS = {("vitrel", "ellipses"): (0.8, 1.3), ("vitrel", "circles"): (0.8, 1.3),
              ("thesis", "ellipses"): (1.7, 2.5), ("thesis", "circles"): (2.4, 3.2)}
 
@@ -118,6 +121,8 @@ def check_analysis(parts):
     for varied in ("frames", "particles", "time differences"):
         found = growth_exponent(of(parts["motion"], method="vitrel", varied=varied), "ns", "size")
         expect(found <= ANALYSIS_EXPONENT, f"the analysis of motion costs {varied}^{found:.2f}")
+    (direct,), (transforms,) = (of(parts["estimators"], method=method) for method in ("all origins", "transforms"))
+    expect(abs(transforms["error"] / direct["error"] - 1) <= 1e-6, f"transforms differ from all origins: {transforms}")
     for row in of(parts["structure_factor"], method="transform"):
         expect(row["share_of_bound"] <= 1, f"an error above its bound: {row}")
 
@@ -140,8 +145,30 @@ def check_thesis(parts):
         expect(abs(row["energy"] - row["expected"]) <= 4 * row["standard_error"], f"figure 4.7: {row}")
 
 
-CHECKS = {"overlap": check_overlap, "contact-time": check_contact_time, "whole-run": check_whole_run, "engine": check_engine,
-          "sampling": check_sampling, "soft-contacts": check_soft_contacts, "analysis": check_analysis, "thesis": check_thesis}
+def check_brownian_step(parts):
+    for row in parts["relaxation"]:
+        deviation, error = row.get("deviation", 0), 2 * row.get("deviation_error", 0)
+        expect(row["brownian_step"] > LONGEST_ACCURATE_STEP or deviation <= ITS_DEVIATION + error, f"a short step: {row}")
+        expect(row["brownian_step"] < WARNED_STEP or deviation >= LEAST_DEVIATION - error, f"a step that is warned of: {row}")
+
+
+def check_dense(parts):
+    for row in of(parts["density"], method="grow, rate 1e-3"):
+        must = row["packing_fraction"] <= REACHED.get(row["system"], 0)
+        expect(not must or row["end"] == "reached", f"not reached: {row}")
+
+
+def check_peers(parts):
+    for row in parts["plane"] + parts["space"]:
+        wrong = row["wrong_overlap"] + row["wrong_disjoint"]
+        expect(row["method"] != "separating_axis" or wrong == 0, f"the default is wrong: {row}")
+    for row in of(parts["contact_time"], method="separating_axis"):
+        expect(row["correct"] == row["pairs"], f"the default is wrong: {row}")
+
+
+CHECKS = {"overlap": check_overlap, "contact-time": check_contact_time, "peers": check_peers, "whole-run": check_whole_run, "engine": check_engine,
+          "sampling": check_sampling, "dense": check_dense, "brownian-step": check_brownian_step,
+          "soft-contacts": check_soft_contacts, "analysis": check_analysis, "thesis": check_thesis}
 PARTS = tuple(CHECKS)
 
 
