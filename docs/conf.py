@@ -70,12 +70,14 @@ def python_reference():
                  if isinstance(item, ast.Assign) and item.targets[0].id == "__all__")
     compiled = {alias.name for item in tree.body if isinstance(item, ast.ImportFrom) and item.module == "_vitrel"
                 for alias in item.names}
+    modules = {alias.name for item in tree.body if isinstance(item, ast.ImportFrom) and item.module is None
+               for alias in item.names}
     lines = []
     for name in names:
         if name not in compiled:
-            kind = "autoclass" if name[0].isupper() else "autofunction"
+            kind = "automodule" if name in modules else "autoclass" if name[0].isupper() else "autofunction"
             lines += [f"## {name}", "", "```{eval-rst}", f".. {kind}:: vitrel.{name}"]
-            lines += ["   :members:"] if kind == "autoclass" else []
+            lines += [] if kind == "autofunction" else ["   :members:"]
             lines += ["```", ""]
     return "\n".join(lines)
 

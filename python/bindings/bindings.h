@@ -11,6 +11,7 @@ namespace vitrel::python {
 void bind_errors(pybind11::module_& module);
 void bind_pairs(pybind11::module_& module);
 void bind_pictures(pybind11::module_& module);
+void bind_files(pybind11::module_& module);
 void bind_states(pybind11::module_& module);
 void bind_work(pybind11::module_& module);
 void bind_results(pybind11::module_& module);

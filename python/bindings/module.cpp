@@ -24,6 +24,7 @@ PYBIND11_MODULE(_vitrel, module) {
   vitrel::python::bind_pairs(module);
   vitrel::python::bind_states(module);
   vitrel::python::bind_pictures(module);
+  vitrel::python::bind_files(module);
   vitrel::python::bind_work(module);
   vitrel::python::bind_results(module);
 }

@@ -11,6 +11,7 @@
 #include "workflow/analyze/analyze.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/report/page.h"
+#include "workflow/report/page_parts.h"
 #include "workflow/report/page_tables.h"
 #include "workflow/sweep/sweep_results.h"
 
@@ -109,6 +110,10 @@ void bind_results(py::module_& module) {
   module.def("page", &page, py::arg("input"), py::arg("overrides"));
   module.def("write_page", &write_page, py::arg("input"), py::arg("output"), py::arg("overrides"));
   module.def("average", &average, py::arg("time"), py::arg("value"));
+  module.def(
+      "unit_name",
+      [](const std::string& unit, int dimension) { return unit_name(unit, page_units(dimension)); },
+      py::arg("unit"), py::arg("dimension"));
   module.def(
       "charts",
       [](int dimension) {

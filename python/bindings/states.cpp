@@ -1,3 +1,5 @@
+#include <cstring>
+
 #include "core/io/foreign/foreign_frame.h"
 #include "core/io/h5md.h"
 #include "core/state/check.h"
@@ -46,6 +48,7 @@ struct Arrays {
   Doubles position, box, semi_axes;
   std::optional<Doubles> angle, orientation, mass, velocity, angular_velocity;
   std::optional<std::vector<std::string>> species;
+  double time = 0;
 };
 
 template <int Dim>
@@ -71,6 +74,7 @@ Configuration<Dim> state_of(const Arrays& given) {
     }
   }
   if (given.species) frame.species = *given.species;
+  frame.time = given.time;
   return configuration_of<Dim>(frame, {});
 }
 
@@ -118,6 +122,56 @@ py::dict check(const Configuration<Dim>& state) {
   return result;
 }
 
+// ---- pickling ---------------------------------------------------------------------------------------------
+
+/// visit(vector) for everything there is a number of for every particle, or pair.
+template <class State, class Visit>
+void each_vector(State& state, Visit&& visit) {
+  visit(state.position);
+  visit(state.image);
+  visit(state.velocity);
+  visit(state.angular_velocity);
+  visit(state.shape);
+  visit(state.mass);
+  visit(state.species);
+  visit(state.releases);
+  visit(state.close_pairs);
+  if constexpr (requires { state.angle; })
+    visit(state.angle);
+  else
+    visit(state.orientation);
+}
+
+/// All of the state, bit by bit.
+template <int Dim>
+py::tuple pickled(const Configuration<Dim>& state) {
+  py::list parts;
+  each_vector(state, [&](const auto& vector) {
+    parts.append(
+        py::bytes(reinterpret_cast<const char*>(vector.data()), vector.size() * sizeof(vector[0])));
+  });
+  const Vec<Dim>& lengths = state.box.lengths();
+  return py::make_tuple(std::vector<double>(lengths.begin(), lengths.end()), state.time,
+                        state.species_names, parts);
+}
+
+template <int Dim>
+Configuration<Dim> unpickled(const py::tuple& of) {
+  Configuration<Dim> state;
+  const auto lengths = of[0].cast<std::vector<double>>();
+  state.box = PeriodicBox<Dim>(Eigen::Map<const Vec<Dim>>(lengths.data()));
+  state.time = of[1].cast<double>();
+  state.species_names = of[2].cast<std::vector<std::string>>();
+  const auto parts = of[3].cast<py::list>();
+  std::size_t next = 0;
+  each_vector(state, [&]<class T>(std::vector<T>& vector) {
+    const std::string_view bytes = parts[next++].cast<py::bytes>();
+    vector.resize(bytes.size() / sizeof(T));
+    std::memcpy(static_cast<void*>(vector.data()), bytes.data(), bytes.size());
+  });
+  return state;
+}
+
 template <int Dim>
 void bind_state(py::module_& module, const char* name) {
   using State = Configuration<Dim>;
@@ -143,6 +197,7 @@ void bind_state(py::module_& module, const char* name) {
       .def("__len__", &State::size)
       .def("packing_fraction", &packing_fraction<Dim>)
       .def("check", &check<Dim>)
+      .def(py::pickle(&pickled<Dim>, &unpickled<Dim>))
       .def("write", [](const State& s, const std::filesystem::path& path,
                        const std::string& parameters, bool overwrite) {
         write_state(path, s, current_provenance("vitrel (Python)", parameters, 0), overwrite);
@@ -163,17 +218,17 @@ py::object read_frame(const TrajectoryReader& reader, std::uint64_t frame) {
 void bind_states(py::module_& module) {
   bind_state<2>(module, "PlaneState");
   bind_state<3>(module, "SpaceState");
-  module.def(
-      "state_from_arrays",
-      [](int dimension, Doubles position, Doubles box, Doubles semi_axes,
-         std::optional<Doubles> angle, std::optional<Doubles> orientation,
-         std::optional<Doubles> mass, std::optional<Doubles> velocity,
-         std::optional<Doubles> angular_velocity, std::optional<std::vector<std::string>> species) {
-        const Arrays given{position,          box,  semi_axes, angle,
-                           orientation,       mass, velocity,  angular_velocity,
-                           std::move(species)};
-        return dimension == 2 ? py::cast(state_of<2>(given)) : py::cast(state_of<3>(given));
-      });
+  module.def("state_from_arrays",
+             [](int dimension, Doubles position, Doubles box, Doubles semi_axes,
+                std::optional<Doubles> angle, std::optional<Doubles> orientation,
+                std::optional<Doubles> mass, std::optional<Doubles> velocity,
+                std::optional<Doubles> angular_velocity,
+                std::optional<std::vector<std::string>> species, double time) {
+               const Arrays given{position,           box,  semi_axes, angle,
+                                  orientation,        mass, velocity,  angular_velocity,
+                                  std::move(species), time};
+               return dimension == 2 ? py::cast(state_of<2>(given)) : py::cast(state_of<3>(given));
+             });
   py::class_<TrajectoryReader>(module, "Frames")
       .def(py::init([](const std::filesystem::path& path, std::vector<std::string> overrides) {
              return TrajectoryReader(path, known_system(AnalysisChoice{{}, std::move(overrides)}));

@@ -13,6 +13,7 @@ with the messages of the program.
 """
 
 from ._vitrel import FileError, InvariantError, UserError, commit, version
+from . import analysis
 from .pairs import Bodies, Contact, Gap, Restitution, first_contact, gap, overlap, restitution
 from .results import Chart, Column, Results, Table
 from .runs import Run, load, run
@@ -22,6 +23,6 @@ from .sweeps import Sweep, load_sweep, sweep
 __version__ = version
 __all__ = [
     "Bodies", "Chart", "Column", "Contact", "FileError", "Gap", "InvariantError", "Restitution", "Results", "Run", "State",
-    "Sweep", "Table", "UserError", "commit", "first_contact", "gap", "load", "load_sweep", "overlap", "prepare", "read",
+    "Sweep", "Table", "UserError", "analysis", "commit", "first_contact", "gap", "load", "load_sweep", "overlap", "prepare", "read",
     "restitution", "run", "sweep", "version",
 ]

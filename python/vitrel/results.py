@@ -1,7 +1,9 @@
 """Tables of results: arrays with errors and units, and the charts that show them."""
 
 import functools
+import html
 import json
+import math
 import re
 from collections.abc import Mapping
 from typing import Dict, Iterable, Iterator, List, Optional, TypeVar
@@ -10,11 +12,7 @@ import numpy
 
 from . import _vitrel
 
-# In units of the reference particle, whose semi-axes have the product 1.
-_UNITS = {
-    2: {"length": "√(ab)", "length^2": "ab", "1/length": "1/√(ab)", "time": "√(m ab/kT)", "rad^2": "rad²"},
-    3: {"length": "∛(abc)", "length^2": "(abc)^⅔", "1/length": "1/∛(abc)", "time": "√(m (abc)^⅔/kT)", "rad^2": "rad²"},
-}
+_ROWS_SHOWN = 10  # of a table, in a notebook
 
 
 class Column:
@@ -37,11 +35,15 @@ class Column:
         self.name, self.unit, self.value, self.error, self.labels = name, unit, value, error, list(labels)
         self.table: Optional["Table"] = None
 
-    def __array__(self, dtype=None):
-        return numpy.asarray(self.value, dtype=dtype)
+    def __array__(self, dtype=None, copy=None):
+        array = numpy.asarray(self.value, dtype=dtype)
+        return array.copy() if copy else array
 
     def __len__(self) -> int:
         return len(self.value)
+
+    def __getitem__(self, rows):
+        return self.value[rows]
 
     def __repr__(self) -> str:
         return f"<Column {self.name} / {self.unit}: {self.value!r}>"
@@ -78,6 +80,9 @@ class _ByName(Mapping[str, _Item]):
     def __len__(self) -> int:
         return len(self._items)
 
+    def _ipython_key_completions_(self) -> List[str]:
+        return list(self)
+
 
 class Table(_ByName[Column]):
     """Columns by name.
@@ -94,8 +99,19 @@ class Table(_ByName[Column]):
             column.table = self
 
     def __repr__(self) -> str:
-        rows = len(next(iter(self.values()))) if self else 0
-        return f"<Table {self.name}: {rows} rows of {', '.join(self)}>"
+        return f"<Table {self.name}: {self._rows} rows of {', '.join(self)}>"
+
+    @property
+    def _rows(self) -> int:
+        return len(next(iter(self.values()))) if self else 0
+
+    def _repr_html_(self) -> str:
+        """The first rows, with errors."""
+        names = [f"{column.name} / {column.unit}" if column.unit not in ("", "1") else column.name for column in self.values()]
+        rows = [[_cell(column, row) for column in self.values()] for row in range(min(_ROWS_SHOWN, self._rows))]
+        more = self._rows - len(rows)
+        return (f"<p><b>{html.escape(self.name)}</b>: {html.escape(self.description)}</p>" + _html_table(names, rows)
+                + (f"<p>… and {more} more rows</p>" if more else ""))
 
     def to_pandas(self):
         """A pandas.DataFrame. Errors are columns `name_error`; codes are their labels."""
@@ -162,13 +178,19 @@ class Chart:
         return f"<Chart {self.heading}: {', '.join(self.labels)} of {self.table.name}>"
 
     def plot(self, axes=None, columns=None, **style):
-        """Draws all curves, or these columns; returns the matplotlib axes."""
+        """Draws all curves, or these columns; returns the matplotlib axes.
+
+        `style` is of matplotlib's `errorbar`. A `label` is that of the only curve, or comes before those of several.
+        """
         axes = _axes(axes)
+        label_of_all = style.pop("label", None)
         x = self.table[self.description["x"]]
         columns = columns or list(self.labels)
         curves = [(name, *curve) for name in columns for curve in self._curves(name)]
         for name, label, rows in curves:
             column = self.table[name]
+            if label_of_all is not None:
+                label = label_of_all if len(curves) == 1 else f"{label_of_all}, {label}"
             axes.errorbar(numpy.asarray(x.texts if x.labels else x.value)[rows], column.value[rows],
                           yerr=None if column.error is None else column.error[rows], label=label,
                           **{"marker": "o", "markersize": 3, "linewidth": 1, **style})
@@ -177,7 +199,7 @@ class Chart:
         axes.set(xlabel=self._label(self.description["xSymbol"], x.unit),
                  ylabel=self._label(self.description["symbol"], self.table[columns[0]].unit))
         self._scale(axes)
-        if len(curves) > 1:
+        if len(curves) > 1 or label_of_all is not None:
             axes.legend(frameon=False)
         return axes
 
@@ -192,8 +214,8 @@ class Chart:
         return [(label or self.labels.get(name, name), chosen) for label, chosen in rows.items()]
 
     def _label(self, symbol, unit):
-        unit = _UNITS[self.table.dimension].get(unit, unit)
-        return symbol if unit in ("", "1") else f"{symbol} / {unit}"
+        unit = _vitrel.unit_name(unit, self.table.dimension)
+        return f"{symbol} / {unit}" if unit else symbol
 
     def _scale(self, axes):
         if self.description.get("logX"):
@@ -223,6 +245,12 @@ def charts(table, column=None):
 @functools.lru_cache(maxsize=None)
 def _descriptions(dimension):
     return json.loads(_vitrel.charts(dimension))
+
+
+def plain_columns(dimension):
+    """Names of the columns that charts of a run show, but for those with numbers in them."""
+    return sorted({curve["column"] for description in _descriptions(dimension) if description["section"] != "study"
+                   for curve in description["curves"] if curve["column"].isidentifier()})
 
 
 def _is_of(table, description):
@@ -286,6 +314,10 @@ class Results(_ByName[Table]):
     def __repr__(self) -> str:
         return f"<Results: {', '.join(self)}>"
 
+    def _repr_html_(self) -> str:
+        return _html_table(["table", "rows", "what it has"], [[name, str(table._rows), html.escape(table.description)]
+                                                              for name, table in self.items()])
+
     @property
     def charts(self) -> List[Chart]:
         """All charts of the report page for which there are tables; of a sweep through seeds those of the averages."""
@@ -299,6 +331,22 @@ class Results(_ByName[Table]):
             if name in table and len(table) > 1 and table.name != "summary":
                 return table[name]
         raise KeyError(name)
+
+
+def _cell(column, row):
+    """As text: a value with its error, or what its code stands for."""
+    if column.labels:
+        return html.escape(column.texts[row] or "")
+    error = math.nan if column.error is None else column.error[row]
+    return f"{column.value[row]:.6g}" + (f" ± {error:.2g}" if error == error else "")
+
+
+def _html_table(head, rows):
+    """Of cells that are HTML."""
+    def line(cells, kind):
+        return "<tr>" + "".join(f"<{kind}>{cell}</{kind}>" for cell in cells) + "</tr>"
+
+    return f"<table><thead>{line(head, 'th')}</thead><tbody>{''.join(line(row, 'td') for row in rows)}</tbody></table>"
 
 
 def tables_of(tables, dimension):

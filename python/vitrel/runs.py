@@ -4,17 +4,18 @@ import contextlib
 import functools
 import html
 import json
+import operator
 import os
 import pathlib
-from typing import Callable, Iterator, Mapping, Optional, Sequence
+from typing import Callable, Iterator, Mapping, Optional, Sequence, SupportsIndex, overload
 
 import numpy
 
 from . import _vitrel
 from .observations import Observations
-from .results import Results, tables_of
+from .results import Results, plain_columns, tables_of
 from .settings import listener, overrides
-from .states import State, start_file
+from .states import State, export_file, start_file
 
 
 class Page:
@@ -36,6 +37,23 @@ class Page:
     def _repr_html_(self) -> str:
         page = html.escape(_vitrel.page(self.path, self._imports))
         return f'<iframe srcdoc="{page}" style="width: 100%; height: 42em; border: 0"></iframe>'
+
+
+class FrameSlice(Sequence[State]):
+    """Some frames of a run, each read when it is asked for."""
+
+    def __init__(self, run: "Run", frames: range):
+        self._run, self._chosen = run, frames
+
+    def __len__(self) -> int:
+        return len(self._chosen)
+
+    def __getitem__(self, frame):
+        chosen = self._chosen[frame]
+        return FrameSlice(self._run, chosen) if isinstance(frame, slice) else self._run[chosen]
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} frames of {self._run!r}>"
 
 
 class Run(Page):
@@ -64,14 +82,41 @@ class Run(Page):
     def __len__(self) -> int:
         return len(self._frames)
 
-    def __getitem__(self, frame: int) -> State:
-        return State(self._frames[frame if frame >= 0 else len(self) + frame], self._frames.parameters)
+    @overload
+    def __getitem__(self, frame: SupportsIndex) -> State: ...
+    @overload
+    def __getitem__(self, frame: slice) -> "FrameSlice": ...
+
+    def __getitem__(self, frame):
+        """A frame, or those of a slice, which are read when they are asked for."""
+        if isinstance(frame, slice):
+            return FrameSlice(self, range(len(self))[frame])
+        return State(self._frames[range(len(self))[operator.index(frame)]], self._frames.parameters)
 
     def __iter__(self) -> Iterator[State]:
-        return (self[k] for k in range(len(self)))
+        return iter(self[:])
 
     def __repr__(self) -> str:
         return f"<Run {self.path}: {len(self)} frames>"
+
+    def __eq__(self, other: object) -> bool:
+        """Whether it is the same file, read in the same way."""
+        return isinstance(other, Run) and (self.path.resolve(), self._imports) == (other.path.resolve(), other._imports)
+
+    def __hash__(self) -> int:
+        return hash(self.path.resolve())
+
+    def __reduce__(self):
+        return Run, (self.path.resolve(), self.summary, self.observed, self._imports)
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._names()]
+
+    def _names(self):
+        """Tables and columns: those that there are if they have been computed, else those that charts show."""
+        if "results" in self.__dict__:
+            return [*self.results, *(name for table in self.results.values() for name in table)]
+        return plain_columns(self.dimension)
 
     def __getattr__(self, name: str):
         if name.startswith("_") or hasattr(type(self), name):  # no column, but what failed in a property
@@ -94,6 +139,40 @@ class Run(Page):
     def parameters(self) -> str:
         """All values in force, TOML."""
         return self._frames.parameters
+
+    def export(self, path, format: Optional[str] = None, *, frames: Optional[str] = None, shrink: Optional[float] = None,
+               voxels: Optional[int] = None, images: bool = False) -> pathlib.Path:
+        """Writes frames as `vitrel export` does; returns the path.
+
+        Parameters
+        ----------
+        path : path
+            Must not exist.
+        format : str, optional
+            gsd, xyz, csv or xytheta, in space also geo, vti or vtp; by default the suffix of the path says it.
+        frames : str, optional
+            Which ones: "-1", "10:20", "::5".
+        shrink, voxels, images
+            Of packings (docs/exports.md).
+        """
+        export_file(self.path, path, self.dimension, format, frames, shrink, voxels, images, self._imports)
+        return pathlib.Path(path)
+
+    def film(self, path, colour: Optional[str] = None, *, frames: Optional[str] = None, width: int = 1000,
+             rate: Optional[float] = None) -> pathlib.Path:
+        """Writes a film (.mp4), or a picture of one frame (.png, in the plane .svg), as `vitrel picture` does; returns the path.
+
+        Parameters
+        ----------
+        colour : str, optional
+            "orientation", "species", "size", "displacement", in the plane "psi6".
+        frames : str, optional
+            As of `export`.
+        rate : float
+            Images per second of a film; 25.
+        """
+        _vitrel.write_film(self.path, path, frames, colour or "", width, rate, self._imports)
+        return pathlib.Path(path)
 
     @functools.cached_property
     def results(self) -> Results:

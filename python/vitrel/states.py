@@ -1,6 +1,7 @@
 """Configurations of particles."""
 
 import contextlib
+import functools
 import os
 import pathlib
 import tempfile
@@ -37,25 +38,40 @@ class State:
     def __init__(self, state, parameters="", file=None):
         self._state, self.parameters, self._file = state, parameters, file
 
+    def __getstate__(self):
+        return self._state, self.parameters
+
+    def __setstate__(self, state):
+        self._state, self.parameters = state
+
+    def __eq__(self, other):
+        """Whether all numbers are the same, bit by bit."""
+        return (isinstance(other, State) and type(self._state) is type(other._state)
+                and self._state.__getstate__() == other._state.__getstate__())
+
+    __hash__ = None
+
     @classmethod
     def from_arrays(cls, position, semi_axes, box, *, angle=None, orientation=None, mass=None, velocity=None,
-                    angular_velocity=None, species=None):
+                    angular_velocity=None, species=None, time=0.0):
         """A state of these particles; arrays as the attributes of the class, `species` names.
 
         One shape, mass or species may stand for those of all. Positions may be anywhere. Without masses particles have
         the mass a b (in space a b c).
         """
         position = numpy.asarray(position, dtype=float)
+        if position.ndim != 2 or position.shape[1] not in (2, 3):
+            raise _vitrel.UserError(f"position has the shape {position.shape}, but must have (N, 2) in the plane, (N, 3) in space")
         count, dimension = position.shape
-        spread = lambda values, *shape: None if values is None else numpy.broadcast_to(
-            numpy.asarray(values, dtype=float), (count, *shape))
+        rows = functools.partial(_rows, count, dimension)
         if isinstance(species, str):
             species = [species] * count
+        turns = () if dimension == 2 else (3,)
         state = _vitrel.state_from_arrays(
-            dimension, position, numpy.broadcast_to(numpy.asarray(box, dtype=float), (dimension,)),
-            spread(semi_axes, dimension), spread(angle), spread(orientation, 4), spread(mass), spread(velocity, dimension),
-            spread(angular_velocity) if dimension == 2 else spread(angular_velocity, 3),
-            None if species is None else list(map(str, species)))
+            dimension, position, _rows(None, dimension, "box", box, (dimension,)), rows("semi_axes", semi_axes, (dimension,)),
+            rows("angle", angle, ()), rows("orientation", orientation, (4,)), rows("mass", mass, ()),
+            rows("velocity", velocity, (dimension,)), rows("angular_velocity", angular_velocity, turns),
+            None if species is None else list(map(str, species)), float(time))
         return cls(state)
 
     def __getattr__(self, name):
@@ -90,8 +106,25 @@ class State:
         return self._state.check()
 
     def write(self, path, overwrite=False):
-        """Writes the state as H5MD, which `vitrel run --from` and `vitrel.read` take."""
-        self._state.write(os.fspath(path), self.parameters, overwrite)
+        """Writes the state.
+
+        Parameters
+        ----------
+        path : path
+            The suffix says the format: .h5, which `vitrel run --from` and `vitrel.read` take, or one of `Run.export`.
+        overwrite : bool
+            Replaces a file that exists; of .h5.
+        """
+        path = pathlib.Path(path)
+        if path.suffix in ("", ".h5", ".h5md", ".hdf5"):
+            self._state.write(os.fspath(path), self.parameters, overwrite)
+            return
+        with start_file(self) as file:
+            export_file(file, path, self.dimension)
+
+    def shrunk(self):
+        """The same with semi-axes so small that no particles overlap."""
+        return prepare(start=self, shrink=True, quiet=True)
 
     def _colours(self, colour):
         """Red, green and blue from 0 to 255, shape (N, 3)."""
@@ -151,6 +184,32 @@ class State:
         half = self.box / 2
         axes.set(xlim=(-half[0], half[0]), ylim=(-half[1], half[1]), aspect="equal", xticks=[], yticks=[])
         return axes
+
+
+def _rows(count, dimension, name, values, shape):
+    """An array with an entry of this shape for every particle, of which one may stand for all."""
+    if values is None:
+        return None
+    array = numpy.asarray(values, dtype=float)
+    wanted = shape if count is None else (count, *shape)
+    try:
+        if array.ndim in (len(shape), len(wanted)) or array.ndim == 0:
+            return numpy.broadcast_to(array, wanted)
+    except ValueError:
+        pass
+    one = "" if count is None else f", or {shape} for all" if shape else ", or be one number for all"
+    place = "the plane" if dimension == 2 else "space"
+    raise _vitrel.UserError(f"{name} has the shape {array.shape}, but must have {wanted}{one}: positions are those of {place}")
+
+
+def export_file(source, path, dimension, format=None, frames=None, shrink=None, voxels=None, images=False, imports=()):
+    """Writes a run or state on file in another format, by default the one that the suffix names."""
+    suffix = pathlib.Path(path).suffix.lstrip(".")
+    name, formats = format or {"dat": "xytheta"}.get(suffix, suffix), _vitrel.export_formats(dimension)
+    if name not in formats:
+        place = "the plane" if dimension == 2 else "space"
+        raise _vitrel.UserError(f"{path}: '{name}' is no format for states in {place}; possible are {', '.join(formats)}")
+    _vitrel.export_file(source, path, name, frames, shrink, voxels, images, imports)
 
 
 @contextlib.contextmanager

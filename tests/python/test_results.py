@@ -86,3 +86,24 @@ def test_a_page_replaces_nothing_but_a_page(run, tmp_path):
         with pytest.raises(vitrel.UserError, match="is not an HTML page"):
             run.report(other)
         assert other.read_bytes() == before
+
+
+def test_a_label_names_the_curve(run):
+    axes = run.msd.plot(label="φ = 0.5")
+    run.msd.plot(axes, label="again")
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["φ = 0.5", "again"]
+    several = run.orientation_all.plot("l_2", "l_4", label="mine") if "l_4" in run.orientation_all else None
+    assert several is None or all(text.get_text().startswith("mine, ") for text in several.get_legend().get_texts())
+
+
+def test_units_on_axes_are_those_of_the_run(run, tmp_path):
+    assert run.msd.plot().get_ylabel().endswith("/ ab")
+    run.export(tmp_path / "run.gsd")
+    assert not vitrel.load(tmp_path / "run.gsd").msd.plot().get_ylabel().endswith("/ ab")
+
+
+def test_tables_are_shown_in_notebooks(run):
+    page = run.displacements_all._repr_html_()
+    assert page.count("<tr>") == 11 and "msd / length^2" in page and " ± " in page and "more rows" in page
+    assert "displacements_all" in run.results._repr_html_()
+    assert "<td>" in run.relaxation_times._repr_html_()

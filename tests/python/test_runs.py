@@ -1,6 +1,7 @@
 """Runs: the same as from the command line, and what Python adds to them."""
 
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -182,3 +183,34 @@ def test_mistakes_are_those_of_the_program(tmp_path):
     with pytest.raises(vitrel.FileError, match="missing"):
         vitrel.load(tmp_path / "missing.h5")
     assert os.listdir(tmp_path) == []
+
+
+def test_frames_are_a_sequence(tmp_path):
+    run = vitrel.run(output=tmp_path / "run.h5", duration=5, equilibration=0, **SMALL)
+    assert len(run[0:3]) == 3 and [state.time for state in run[::10]] == run.times[::10].tolist()
+    assert run[numpy.int64(2)] == run[2] == run[:5][2] == run[4:1:-1][-1]
+    with pytest.raises(IndexError):
+        run[len(run)]
+    with pytest.raises(TypeError):
+        run[1.5]
+
+
+def test_runs_are_pickled_by_their_path(tmp_path):
+    run = vitrel.run(output=tmp_path / "run.h5", duration=5, equilibration=0, **SMALL)
+    copy = pickle.loads(pickle.dumps(run))
+    assert copy == run and copy.summary == run.summary and copy[-1] == run[-1]
+    results = pickle.loads(pickle.dumps(run.results))
+    assert results["displacements_all"]["msd"].value.tolist() == run.msd.value.tolist()
+
+
+def test_names_of_tables_and_columns_are_completed(tmp_path):
+    run = vitrel.load(vitrel.run(output=tmp_path / "run.h5", duration=5, equilibration=0, **SMALL).path)
+    assert {"msd", "msr"} <= set(dir(run)) and "results" not in vars(run)
+    assert run.msd is not None and {"displacements_all", "msd"} <= set(dir(run))
+    assert "displacements_all" in run.results._ipython_key_completions_()
+
+
+def test_runs_are_exported_and_filmed(tmp_path):
+    run = vitrel.run(output=tmp_path / "run.h5", duration=2, equilibration=0, **SMALL)
+    assert len(vitrel.load(run.export(tmp_path / "run.gsd", frames="::2"))) == len(run[::2])
+    assert run.film(tmp_path / "last.png", "psi6", width=200).read_bytes().startswith(b"\x89PNG")

@@ -1,5 +1,8 @@
 """States: arrays, files, pictures."""
 
+import multiprocessing
+import pickle
+
 import numpy
 import pytest
 import vitrel
@@ -99,3 +102,43 @@ def test_a_picture_shows_every_particle_and_its_images(state, tmp_path):
     with pytest.raises(vitrel.UserError, match="width: for states in space"):
         state.draw(width=10)
     pyplot.close("all")
+
+
+def test_states_are_pickled_bit_by_bit(state, tmp_path):
+    copy = pickle.loads(pickle.dumps(state))
+    assert copy == state and copy.parameters == state.parameters and (copy.angle == state.angle).all()
+    other = vitrel.State.from_arrays(state.position, state.semi_axes, state.box, angle=state.angle + 1e-16)
+    assert other != state and state != "a state"
+    solid = vitrel.prepare(dimension=3, particles=20, packing_fraction=0.2, semi_axes=[2, 1, 1], quality_sweeps=0)
+    assert pickle.loads(pickle.dumps(solid)) == solid
+    with multiprocessing.Pool(2) as pool:
+        assert pool.map(len, [state, solid]) == [100, 20]
+
+
+@pytest.mark.parametrize("suffix", ["gsd", "xyz", "csv"])
+def test_the_suffix_of_a_file_is_its_format(state, tmp_path, suffix):
+    state.write(tmp_path / f"state.{suffix}")
+    again = vitrel.read(tmp_path / f"state.{suffix}")
+    assert again.position == pytest.approx(state.position, abs=1e-4) and again.semi_axes == pytest.approx(state.semi_axes, abs=1e-4)
+
+
+def test_unknown_formats_are_refused_with_those_there_are(state, tmp_path):
+    with pytest.raises(vitrel.UserError, match="'pdb' is no format .* gsd, xyz, csv"):
+        state.write(tmp_path / "state.pdb")
+    with pytest.raises(vitrel.UserError, match="geo"):
+        vitrel.State.from_arrays([[0, 0, 0]], 1, [10, 10, 10]).write(tmp_path / "state.xytheta")
+
+
+@pytest.mark.parametrize("arguments, words", [
+    ((numpy.zeros((5, 3)), [2, 1], [10, 10]), r"box has the shape \(2,\), but must have \(3,\): .* space"),
+    ((numpy.zeros((5, 2)), [2, 1, 1], [10, 10]), r"semi_axes has the shape \(3,\), but must have \(5, 2\), or \(2,\) for all"),
+    (([0, 0], 1, [10, 10]), r"position has the shape \(2,\)"),
+])
+def test_wrong_shapes_are_named(arguments, words):
+    with pytest.raises(vitrel.UserError, match=words):
+        vitrel.State.from_arrays(*arguments)
+
+
+def test_shrunk_states_have_no_overlaps():
+    overlapping = vitrel.State.from_arrays([[0, 0], [1.5, 0], [5, 5]], 1, [20, 20])
+    assert overlapping.shrunk().check()["overlaps"].size == 0
