@@ -8,7 +8,7 @@ import tempfile
 import textwrap
 import tomllib
 
-from validation.common import COLOURS, PARAMS, ROOT, expect, output_of, pyplot, settings, summary_of, table, write_figure
+from validation.common import COLOURS, PARAMS, ROOT, estimate, expect, output_of, pyplot, settings, summary_of, table, write_figure
 
 TITLE = "The glass"
 PAGE = ROOT / "docs" / "glass.md"
@@ -19,6 +19,7 @@ LIQUIDS = {"glass_polydisperse": "ellipses, κ = 2", "glass_polydisperse_disks":
 AGEING = "glass_fast"
 STUDIES = [*LIQUIDS, AGEING]
 LOWEST = 0.60  # the packing fraction that times are relative to
+STUDENT = {2: 1.837, 3: 1.321, 4: 1.197}  # standard errors from so many seeds, times this, cover 68.3 %
 MIN_GROWTH = 1e3  # of τ_α relative to the cage, of both liquids
 
 
@@ -224,7 +225,7 @@ def relaxation_figure(study, folder):
 
 
 def ageing_figure(study, folder):
-    chosen = [phi for phi in (0.64, 0.72, 0.80) if phi in study.densities()] or study.densities()[:3]
+    chosen = [phi for phi in (0.60, 0.70, 0.82) if phi in study.densities()] or study.densities()[:3]
     figure, axes = pyplot().subplots(2, len(chosen), figsize=(4 * len(chosen), 6.4), sharex=True, sharey="row",
                                      layout="constrained", squeeze=False)
     colours = pyplot().get_cmap("viridis")
@@ -358,20 +359,40 @@ def order_by(study, law):
     return f"By {NAMES[law]}, rotation stops at φ = {density(rotation)} and translation at {density(translation)}: {together}."
 
 
-NO_ORDER = "No law holds for both, so that there are no two densities to compare."
+NO_ORDER = "no law holds for both, so that there are no two densities to compare."
+
+
+def ratio_of_job(job, which):
+    """τ₂ over a time of translation, and its error; nothing if one is not known."""
+    rotation, translation = job.time("2"), job.time(which)
+    if not rotation or not translation:
+        return None
+    ratio = rotation[0] / translation[0]
+    return ratio, ratio * math.hypot(rotation[1] / rotation[0], translation[1] / translation[0])
 
 
 def ratios(study, which):
-    """τ₂ over a time of translation at the lowest and the highest density that have both."""
-    known = [(phi, study.mean_time(phi, "2"), study.mean_time(phi, which)) for phi in study.densities()]
-    known = [(phi, rotation / translation) for phi, rotation, translation in known if rotation and translation]
+    """τ₂ over a time of translation at the lowest and the highest density that have both, averaged over seeds."""
+    known = []
+    for phi in study.densities():
+        found = [ratio_of_job(job, which) for job in study.jobs if job.phi == phi]
+        if all(found):
+            mean = sum(ratio for ratio, _ in found) / len(found)
+            known.append((phi, number(mean, math.hypot(*(error for _, error in found)) / len(found))))
     (low, first), (high, last) = known[0], known[-1]
-    return f"goes from {first:.2g} at φ = {low:g} to {last:.2g} at {high:g}"
+    return f"goes from {first} at φ = {low:g} to {last} at {high:g}"
 
 
 def ratio_text(study):
     """How far apart rotation and translation are at both ends."""
     return f"τ₂/τ_α {ratios(study, 'alpha')}; with τ_α relative to the cage the ratio {ratios(study, 'cage')}."
+
+
+def answer(study):
+    """To the question of the page, in the first paragraph."""
+    known = " ".join(filter(None, (order_by(study, law) for law in NAMES)))
+    return (f"For ellipses of aspect ratio 2: {growth_text(study)} from φ = {LOWEST:g} on, and the ratio of τ₂ and τ_α relative to "
+            f"the cage {ratios(study, 'cage')}. " + (known or "At which density either would stop, these times do not say: " + NO_ORDER))
 
 
 def growth_text(study):
@@ -385,7 +406,7 @@ def ageing_rows(study):
     for job in study.jobs:
         waits = job.tables["waiting_times"]
         for k, waited in enumerate(waits["waiting_time"], start=1):
-            rows.append([f"{job.phi:g}", f"{waited:g}", number(waits["nematic_length"][k - 1]),
+            rows.append([f"{job.phi:g}", job.seed, f"{waited:g}", number(waits["nematic_length"][k - 1]),
                          *(fallen(job.curve(("ageing", f"{name}_{k}"))) for name in ("fs", "l")),
                          number(job.curve(("ageing", f"msd_{k}"))[-1][1]), number(job.curve(("ageing", f"msr_{k}"))[-1][1])])
     return rows
@@ -410,25 +431,44 @@ def domains_text(study):
     return f"Between t_w = {waits[0]:g} and {waits[-1]:g} ξ grows {lengths[0]}, and {lengths[1]}."
 
 
-def stop_rows(study):
-    """The density of each waiting time from which on a correlation does not fall to 1/e in the time that follows the last
-    one, between two neighbouring densities; and that time.
+def value_at(points, time):
+    """Of a correlation, linear in ln t between its points."""
+    for (before, first), (after, second) in zip(points, points[1:]):
+        if before <= time <= after:
+            return first + (second - first) * math.log(time / before) / math.log(after / before)
+    return points[-1][1]
+
+
+def stopping_density(jobs, curve, time):
+    """Of one seed: the density at which a correlation falls to 1/e just then, by linear interpolation; a bound, as
+    a text, where it does so at all of them or at none.
     """
-    first = study.jobs[0]
-    waits = first.tables["waiting_times"]["waiting_time"]
-    window = first.verdict["duration"] - waits[-1]
+    values = [(job.phi, value_at(job.curve(curve), time)) for job in jobs]
+    moving = [k for k, (_, value) in enumerate(values) if value <= 1 / math.e]
+    if not moving:
+        return f"≤ {values[0][0]:g}"
+    if moving[-1] + 1 == len(values):
+        return f"> {values[-1][0]:g}"
+    (low, above), (high, below) = values[moving[-1]:moving[-1] + 2]
+    return low + (high - low) * (1 / math.e - above) / (below - above)
 
-    def stops(name, k):
-        moving = [job.phi for job in study.jobs
-                  if any(t <= window and y <= 1 / math.e for t, y in job.curve(("ageing", f"{name}_{k}")))]
-        if not moving:
-            return f"≤ {first.phi:g}"
-        beyond = [job.phi for job in study.jobs if job.phi > max(moving)]
-        if not beyond:
-            return f"> {max(moving):g}"
-        return f"{(max(moving) + beyond[0]) / 2:g} ± {(beyond[0] - max(moving)) / 2:g}"
 
-    return window, [[f"{waited:g}", stops("l", k), stops("fs", k)] for k, waited in enumerate(waits, start=1)]
+def stop_text(study, curve, time):
+    """The mean over seeds, with an error that covers 68.3 %; else the bounds."""
+    found = [stopping_density([job for job in study.jobs if job.seed == seed], curve, time)
+             for seed in sorted({job.seed for job in study.jobs})]
+    if any(isinstance(one, str) for one in found):
+        return ", ".join(dict.fromkeys(one if isinstance(one, str) else f"{one:.3f}" for one in found))
+    mean, error = estimate(found)
+    return f"{mean:.3f} ± {STUDENT[len(found)] * error:.3f}"
+
+
+def stop_rows(study):
+    """The density of each waiting time at which a correlation falls to 1/e in the time that follows the last one; that time."""
+    waits = study.jobs[0].tables["waiting_times"]["waiting_time"]
+    window = study.jobs[0].verdict["duration"] - waits[-1]
+    return window, [[f"{waited:g}", *(stop_text(study, ("ageing", f"{name}_{k}"), window) for name in ("l", "fs"))]
+                    for k, waited in enumerate(waits, start=1)]
 
 
 def wrapped(text):
@@ -447,9 +487,10 @@ def left_text(studies):
 
 def page(liquids, ageing, slow):
     text = (ROOT / "scripts/validation/glass_page.txt").read_text(encoding="utf-8")
-    values = {"ageing": table(["φ", "t_w", "ξ", "τ_α", "τ₂", "MSD at the end", "MSR at the end"], ageing_rows(ageing)),
+    values = {"ageing": table(["φ", "seed", "t_w", "ξ", "τ_α", "τ₂", "MSD at the end", "MSR at the end"], ageing_rows(ageing)),
               "hours": f"{sum(study.seconds() for study in (*liquids, ageing)) / 3600:.1f}",
-              "order": " ".join(filter(None, (order_by(liquids[0], law) for law in NAMES))) or NO_ORDER,
+              "order": " ".join(filter(None, (order_by(liquids[0], law) for law in NAMES))) or NO_ORDER.capitalize(),
+              "answer": answer(liquids[0]),
               "ratio": ratio_text(liquids[0]), "domains": domains_text(ageing),
               "slow": f"{slow:.2g}", "left": left_text((*liquids, ageing))}
     window, stops = stop_rows(ageing)
