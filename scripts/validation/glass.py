@@ -262,7 +262,7 @@ def domains_figure(build, study, folder):
         with tempfile.TemporaryDirectory() as scratch:
             state = pathlib.Path(scratch, "state.h5")
             summary = summary_of(build, "prepare", study.parameters,
-                                 *settings([f"system.packing_fraction={phi}", *changes]), "-o", state)
+                                 *settings([f"system.packing_fraction={phi}", "prepare.quality_sweeps=1", *changes]), "-o", state)
             draw_ellipses(axes, state)
         axes.set_title(f"φ = {phi:g}" + ", made slowly" * bool(changes), fontsize="medium")
     figure.savefig(folder / "glass_domains.png", dpi=130, metadata={"Software": None})
