@@ -22,9 +22,11 @@ struct MethodOf {
 using Method = MethodOf<2>;
 
 /// Every method at its usual tolerance, the default first.
-std::vector<Method> collision_time_methods();
+template <int Dim = 2>
+std::vector<MethodOf<Dim>> collision_time_methods();
 
 /// Every method at a series of tolerances, from coarse to fine: the points of the chart.
-std::vector<Method> collision_time_methods_by_tolerance();
+template <int Dim = 2>
+std::vector<MethodOf<Dim>> collision_time_methods_by_tolerance();
 
 }  // namespace vitrel::bench

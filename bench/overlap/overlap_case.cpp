@@ -1,7 +1,6 @@
 #include "bench/overlap/overlap_case.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "bench/surveys/drawn_class.h"
 #include "core/contact/ellipse_vieillard_baron.h"
@@ -32,29 +31,24 @@ OverlapCase<2> pair_at_origin(Stream& draw, double kappa, std::integral_constant
 
 OverlapCase<3> pair_at_origin(Stream& draw, double kappa, std::integral_constant<int, 3>) {
   const double size = draw.uniform(1, 2);
-  const Ellipsoid one = any_shape(draw, kappa), two = any_shape(draw, kappa);
-  const Quaternion turn1 = any_orientation(draw);
+  const Ellipsoid one = any_shape<3>(draw, kappa), two = any_shape<3>(draw, kappa);
+  const Quaternion turn1 = any_orientation<3>(draw);
   return {
-      one, {size * two.semi_axes}, {Vec3::Zero(), turn1}, {Vec3::Zero(), any_orientation(draw)}};
+      one, {size * two.semi_axes}, {Vec3::Zero(), turn1}, {Vec3::Zero(), any_orientation<3>(draw)}};
 }
 
 template <int Dim>
 Vec<Dim> any_way(Stream& draw) {
-  if constexpr (Dim == 3) {
-    return any_direction(draw);
-  } else {
-    const double angle = draw.uniform(0, 2 * std::numbers::pi);
-    return {std::cos(angle), std::sin(angle)};
-  }
+  if constexpr (Dim == 3)
+    return any_direction<3>(draw);
+  else
+    return unit(draw.uniform(0, 2 * std::numbers::pi));
 }
 
 template <int Dim>
 PerramWertheim<Dim> scaled_to_touch(const OverlapCase<Dim>& asked, const Vec<Dim>& d) {
-  if constexpr (Dim == 2)
-    return perram_wertheim(asked.one, asked.pose1.angle, asked.two, asked.pose2.angle, d);
-  else
-    return perram_wertheim(asked.one, asked.pose1.orientation, asked.two, asked.pose2.orientation,
-                           d);
+  return perram_wertheim(asked.one, orientation_of(asked.pose1), asked.two,
+                         orientation_of(asked.pose2), d);
 }
 
 EllipseAxes<Real> axes(const Ellipse& ellipse, const Pose2& pose) {

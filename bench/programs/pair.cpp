@@ -8,7 +8,7 @@
 
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
-#include "bench/methods/ellipsoids/methods.h"
+#include "bench/methods/method.h"
 #include "bench/studies/choice.h"
 #include "bench/studies/tables.h"
 #include "bench/surveys/timed_batches.h"
@@ -39,13 +39,6 @@ const char* outcome_text(Outcome outcome) {
       break;
   }
   return "no answer";
-}
-
-std::vector<Method> methods_for(const Pair<2>&) {
-  return collision_time_methods();
-}
-std::vector<MethodOf<3>> methods_for(const Pair<3>&) {
-  return ellipsoid_methods();
 }
 
 template <class Shape>
@@ -80,7 +73,7 @@ Answer ask(const MethodOf<Dim>& method, const Pair<Dim>& pair) {
 /// The default method first, whether it is asked for or not.
 template <int Dim>
 std::vector<Answer> answers(const Pair<Dim>& pair, const std::vector<std::string>& names) {
-  const auto all = methods_for(pair);
+  const auto all = collision_time_methods<Dim>();
   std::vector<Answer> found = {ask(all.front(), pair)};
   for (const MethodOf<Dim>& method : chosen(all, names, "method"))
     if (method.name != all.front().name) found.push_back(ask(method, pair));

@@ -7,10 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "bench/methods/ellipsoids/methods.h"
 #include "bench/studies/choice.h"
 #include "bench/studies/study.h"
-#include "bench/surveys/ellipsoid_suite.h"
 #include "bench/surveys/failing_case.h"
 #include "bench/surveys/recorded_class.h"
 #include "bench/surveys/survey.h"
@@ -22,35 +20,11 @@ namespace {
 /// Where the tolerance is varied, a coarse answer counts as correct if it is off by no more than this.
 constexpr double coarse_tolerance = 1e-2;
 
-template <int Dim>
-std::vector<MethodOf<Dim>> methods() {
-  if constexpr (Dim == 2)
-    return collision_time_methods();
-  else
-    return ellipsoid_methods();
-}
-
-template <int Dim>
-std::vector<MethodOf<Dim>> methods_by_tolerance() {
-  if constexpr (Dim == 2)
-    return collision_time_methods_by_tolerance();
-  else
-    return ellipsoid_methods_by_tolerance();
-}
-
-template <int Dim>
-std::vector<CaseClassOf<Dim>> classes() {
-  if constexpr (Dim == 2)
-    return all_classes();
-  else
-    return ellipsoid_suite();
-}
-
 /// Random pairs of the smallest aspect ratio.
 template <int Dim>
 std::vector<CaseClassOf<Dim>> random_classes() {
   std::vector<CaseClassOf<Dim>> result;
-  const auto all = classes<Dim>();
+  const auto all = all_classes<Dim>();
   for (const char* const name : {"generic", "tumbling"})
     if (const auto first = std::ranges::find(all, name, &CaseClassOf<Dim>::name);
         first != all.end())
@@ -91,9 +65,9 @@ Json measure(const StudyContext& context) {
   if (options.tolerance > 0) allowed = {options.tolerance, options.tolerance};
   if (options.gap_tolerance > 0) allowed.gap = options.gap_tolerance;
   SurveyRequestOf<Dim> request{
-      {}, selected(classes<Dim>(), options.classes), options.pairs, options.seed, allowed};
-  const std::string default_method = methods<Dim>().front().name;
-  for (const MethodOf<Dim>& method : selected(methods<Dim>(), options.methods)) {
+      {}, selected(all_classes<Dim>(), options.classes), options.pairs, options.seed, allowed};
+  const std::string default_method = collision_time_methods<Dim>().front().name;
+  for (const MethodOf<Dim>& method : selected(collision_time_methods<Dim>(), options.methods)) {
     request.candidates.push_back({method});
     if (method.name != default_method) request.candidates.back().seconds = options.seconds;
   }
@@ -108,7 +82,7 @@ Json measure(const StudyContext& context) {
 template <int Dim>
 Json measure_tolerances(const StudyContext& context) {
   const StudyOptions& options = context.options;
-  const auto all = selected(methods_by_tolerance<Dim>(), options.methods);
+  const auto all = selected(collision_time_methods_by_tolerance<Dim>(), options.methods);
   std::map<std::string, int> tolerances;
   for (const MethodOf<Dim>& method : all) ++tolerances[method.name];
   SurveyRequestOf<Dim> request{
@@ -138,12 +112,13 @@ Json answers(const CollisionCaseOf<Dim>& asked, const std::vector<MethodOf<Dim>>
 Json measure_thesis_scene(const StudyContext&) {
   const Flight<Ellipse> resting{{1, 0.5}, {{0, 0}, 0}, {{0, 0}, 0}};
   const Flight<Ellipse> coming{{1, 0.5}, {{1, 1}, 0}, {{-1, 0}, std::numbers::pi}};
-  return answers<2>({of_constant_size(resting), of_constant_size(coming), 2}, methods<2>());
+  return answers<2>({of_constant_size(resting), of_constant_size(coming), 2},
+                    collision_time_methods<2>());
 }
 
 Json measure_passing_pair(const StudyContext&) {
   constexpr double depth = 3e-5;
-  return answers<3>(passing_pair(depth), methods_by_tolerance<3>());
+  return answers<3>(passing_pair(depth), collision_time_methods_by_tolerance<3>());
 }
 
 const std::vector<Column> pair_classes = {{"class"}, {"aspect_ratio", "κ"}};
@@ -164,8 +139,8 @@ Part failures(const std::string& name, const std::string& about) {
                      largest_error,
                      {"median_error", "median error", Shown::error},
                      {"largest_gap_error", "largest gap error", Shown::error}},
-          .method_names = names_of(methods<Dim>()),
-          .class_names = names_of(classes<Dim>())};
+          .method_names = names_of(collision_time_methods<Dim>()),
+          .class_names = names_of(all_classes<Dim>())};
 }
 
 template <int Dim>
@@ -182,7 +157,7 @@ Part tolerances(const std::string& name) {
           .verdicts = verdicts,
           .others = {{"median_error", "median error", Shown::error}},
           .varied = "tolerance",
-          .method_names = names_of(methods<Dim>()),
+          .method_names = names_of(collision_time_methods<Dim>()),
           .smallest_error = 1e-17};
 }
 
@@ -212,9 +187,9 @@ Study contact_time_study() {
                   {"collision-time-of-solids", {"space", "space_tolerances", "passing_pair"}}},
       .question =
           "Which method finds the time of the first contact, how accurately, and at what cost?",
-      .parts = {failures<2>(
-                    "plane",
-                    "Pairs of ellipses, compared with interval arithmetic in 80 bits." + meaning),
+      .parts = {failures<2>("plane",
+                            "Pairs of ellipses, compared with a reference in 80-bit arithmetic. " +
+                                meaning),
                 tolerances<2>("plane_tolerances"),
                 one_pair("thesis_scene",
                          "Two ellipses with a = 1, b = 0.5. One is at rest at the origin; the "
@@ -222,9 +197,10 @@ Study contact_time_study() {
                          "They touch, overlap, and touch again from inside the overlap at t = 1, "
                          "a trap for methods that accept any root.",
                          measure_thesis_scene),
-                failures<3>("space",
-                            "Pairs of ellipsoids, compared with a reference in 80-bit arithmetic." +
-                                meaning),
+                failures<3>(
+                    "space",
+                    "Pairs of ellipsoids, compared with a reference in 80-bit arithmetic. " +
+                        meaning),
                 tolerances<3>("space_tolerances"),
                 one_pair("passing_pair",
                          "Two ellipsoids that overlap for a moment as they pass. The two roots "

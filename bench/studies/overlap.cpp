@@ -47,14 +47,10 @@ bool by_separating_axis(const OverlapCase<Dim>& asked) {
   return separated(asked.one, asked.pose1, asked.two, asked.pose2, asked.between_centres(), 0);
 }
 
-bool by_perram_wertheim(const OverlapCase<2>& asked) {
-  return perram_wertheim(asked.one, asked.pose1.angle, asked.two, asked.pose2.angle,
-                         asked.between_centres())
-      .disjoint();
-}
-bool by_perram_wertheim_in_space(const OverlapCase<3>& asked) {
-  return perram_wertheim(asked.one, asked.pose1.orientation, asked.two, asked.pose2.orientation,
-                         asked.between_centres())
+template <int Dim>
+bool by_perram_wertheim(const OverlapCase<Dim>& asked) {
+  return perram_wertheim(asked.one, orientation_of(asked.pose1), asked.two,
+                         orientation_of(asked.pose2), asked.between_centres())
       .disjoint();
 }
 
@@ -70,7 +66,7 @@ void add_limited_searches(std::vector<Criterion<Dim>>& all) {
 std::vector<Criterion<2>> criteria(std::integral_constant<int, 2>) {
   std::vector<Criterion<2>> all = {
       {"separating_axis", by_separating_axis<2>},
-      {"perram_wertheim", by_perram_wertheim},
+      {"perram_wertheim", by_perram_wertheim<2>},
       {"vieillard_baron",
        [](const OverlapCase<2>& asked) { return contact_function(asked).disjoint(); }},
       {"vieillard_baron_as_in_the_thesis",
@@ -88,7 +84,7 @@ std::vector<Criterion<2>> criteria(std::integral_constant<int, 2>) {
 std::vector<Criterion<3>> criteria(std::integral_constant<int, 3>) {
   std::vector<Criterion<3>> all = {
       {"separating_axis", by_separating_axis<3>},
-      {"perram_wertheim", by_perram_wertheim_in_space},
+      {"perram_wertheim", by_perram_wertheim<3>},
       {"eta_signs", [](const OverlapCase<3>& asked) { return signs(asked).disjoint(); }},
       {"eta_signs_as_printed", [](const OverlapCase<3>& asked) {
          const EllipsoidEta<double> of = signs(asked);

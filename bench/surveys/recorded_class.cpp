@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -88,19 +87,11 @@ std::vector<CaseClass> recorded_classes() {
   std::vector<CaseClass> list;
   for (const double aspect_ratio : {2.0, 6.0}) {
     const auto recording = std::make_shared<Recording>(aspect_ratio);
-    list.push_back({"recorded",
-                    "predictions of the engine in a run of 256 ellipses at packing fraction 0.7",
-                    aspect_ratio, [recording](std::uint64_t seed, std::uint64_t index) {
+    list.push_back({"recorded", aspect_ratio, [recording](std::uint64_t seed, std::uint64_t index) {
                       return recording->at(seed, index);
                     }});
   }
   return list;
-}
-
-std::vector<CaseClass> all_classes() {
-  std::vector<CaseClass> classes = stability_suite();
-  std::ranges::move(recorded_classes(), std::back_inserter(classes));
-  return classes;
 }
 
 }  // namespace vitrel::bench

@@ -15,7 +15,13 @@ namespace vitrel::bench {
 /// the first case is wanted and kept, with its questions so far, until another seed is asked for.
 std::vector<CaseClass> recorded_classes();
 
-/// The stability suite and these.
-std::vector<CaseClass> all_classes();
+/// The stability suite, and in the plane these.
+template <int Dim>
+std::vector<CaseClassOf<Dim>> all_classes() {
+  std::vector<CaseClassOf<Dim>> classes = stability_suite<Dim>();
+  if constexpr (Dim == 2)
+    for (const CaseClass& of : recorded_classes()) classes.push_back(of);
+  return classes;
+}
 
 }  // namespace vitrel::bench

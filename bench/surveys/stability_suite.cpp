@@ -1,230 +1,303 @@
 #include "bench/surveys/stability_suite.h"
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
+#include <array>
+#include <functional>
 
-#include "bench/reference/true_gap.h"
+#include "bench/methods/opening.h"
 #include "bench/surveys/drawn_class.h"
-#include "core/contact/ellipse_vieillard_baron.h"
+#include "bench/surveys/verdict.h"
+#include "core/geometry/free_flight.h"
 
 namespace vitrel::bench {
-
 namespace {
 
-constexpr double pi = std::numbers::pi;
+/// The end of the horizon of most cases.
+constexpr double usual_horizon = 2;
 
-Vec2 unit(double angle) {
-  return {std::cos(angle), std::sin(angle)};
-}
-double any_angle(Stream& draw) {
-  return draw.uniform(-pi, pi);
-}
+template <int Dim>
+using Moving = Flight<GrowingBody<Dim>>;
 
-// kT = 1 and mass 1.
-Vec2 thermal_velocity(Stream& draw) {
-  const double x = draw.normal();
-  return {x, draw.normal()};
+// ---- bodies -----------------------------------------------------------------------------------------
+
+double thermal_turning(Stream& draw, const Ellipse& shape, double) {
+  return draw.normal() / std::sqrt(shape.inertia_per_mass());
 }
-double thermal_turning(Stream& draw, const Ellipse& ellipse) {
-  return draw.normal() / std::sqrt(ellipse.inertia_per_mass());
+Vec3 thermal_turning(Stream& draw, const Ellipsoid& shape, const Quaternion& orientation) {
+  return orientation * thermal_vector<3>(draw).cwiseQuotient(shape.inertia_per_mass().cwiseSqrt());
 }
 
-/// A body of constant size at the origin with thermal velocities, turned at random.
-Flight<GrowingEllipse> thermal(Stream& draw, const Ellipse& ellipse) {
-  const double angle = any_angle(draw);
-  const Vec2 velocity = thermal_velocity(draw);
-  return {{ellipse, 1, 0}, {{0, 0}, angle}, {velocity, thermal_turning(draw, ellipse)}};
+/// A body of constant size at the origin with thermal velocities, oriented at random.
+template <class Shape>
+Flight<Growing<Shape>> thermal(Stream& draw, const Shape& shape) {
+  constexpr int dim = Shape::dimension;
+  const auto orientation = any_orientation<dim>(draw);
+  const Vec<dim> velocity = thermal_vector<dim>(draw);
+  return {{shape, 1, 0},
+          {Vec<dim>::Zero(), orientation},
+          {velocity, thermal_turning(draw, shape, orientation)}};
 }
 
-CollisionCase thermal_pair(Stream& draw, const Ellipse& e1, const Ellipse& e2) {
-  const auto one = thermal(draw, e1);
+template <int Dim>
+Moving<Dim> any_body(Stream& draw, double kappa) {
+  const auto shape = any_shape<Dim>(draw, kappa);
+  return thermal(draw, shape);
+}
+
+template <int Dim>
+CollisionCaseOf<Dim> thermal_pair(Stream& draw, double kappa) {
+  const Moving<Dim> one = any_body<Dim>(draw, kappa);
+  return {one, any_body<Dim>(draw, kappa), usual_horizon};
+}
+
+CollisionCase pair_of(Stream& draw, const Ellipse& e1, const Ellipse& e2) {
+  const Moving<2> one = thermal(draw, e1);
   return {one, thermal(draw, e2), usual_horizon};
 }
 
-VieillardBaron<double> contact_function(const CollisionCase& pair, double time) {
-  const auto body = [&](const GrowingEllipse& of) {
-    const double size = std::max(of.size_at(time), 1e-9);  // a point has none
-    return Ellipse{of.shape.a * size, of.shape.b * size};
-  };
-  const Vec2 d = pair.two.pose.position - pair.one.pose.position +
-                 (pair.two.motion.velocity - pair.one.motion.velocity) * time;
-  const auto angle = [&](const Flight<GrowingEllipse>& of) {
-    return of.pose.angle + of.motion.angular_velocity * time;
-  };
-  return vieillard_baron(body(pair.one.body), angle(pair.one), body(pair.two.body), angle(pair.two),
-                         d);
+/// Lets both bodies grow or shrink, three in ten from a point.
+template <int Dim>
+void let_grow(Stream& draw, CollisionCaseOf<Dim>& pair) {
+  for (GrowingBody<Dim>* body : {&pair.one.body, &pair.two.body}) {
+    const bool from_a_point = draw.uniform() < 0.3;
+    body->size = from_a_point ? 0 : 1;
+    body->growth_rate = from_a_point ? draw.uniform(0.1, 0.6) : draw.uniform(-0.4, 0.4);
+  }
 }
 
-bool disjoint_at_start(const CollisionCase& pair) {
-  return contact_function(pair, 0).disjoint();
+// ---- places -----------------------------------------------------------------------------------------
+
+template <int Dim>
+bool disjoint_at(const CollisionCaseOf<Dim>& pair, double time) {
+  return perram_wertheim_at(pair, time).disjoint();
 }
 
-bool disjoint_at_samples(const CollisionCase& pair, double until, int samples) {
+template <int Dim>
+bool disjoint_at_samples(const CollisionCaseOf<Dim>& pair, double until, int samples) {
   for (int k = 0; k < samples; ++k)
-    if (!contact_function(pair, k * until / samples).disjoint()) return false;
+    if (!disjoint_at(pair, k * until / samples)) return false;
   return true;
 }
 
-/// Puts the second body around `origin`, where the first one goes, until the two are disjoint: the
-/// distance of the centres uniform between nearest and farthest times a₁ + a₂, every direction.
-CollisionCase placed_apart(Stream& draw, CollisionCase pair, double nearest, double farthest,
-                           const Vec2& origin = {0, 0}) {
-  const double reach = pair.one.body.shape.a + pair.two.body.shape.a;
-  pair.one.pose.position = origin;
+/// Puts the second body around the first until the two are disjoint: the distance of the centres uniform between
+/// nearest and farthest times a₁ + a₂, every direction.
+template <int Dim>
+CollisionCaseOf<Dim> placed_apart(Stream& draw, CollisionCaseOf<Dim> pair, double nearest,
+                                  double farthest) {
   do {
-    const double distance = draw.uniform(nearest, farthest) * reach;
-    pair.two.pose.position = origin + distance * unit(any_angle(draw));
-  } while (!disjoint_at_start(pair));
+    const double distance = draw.uniform(nearest, farthest) * pair.reach();
+    pair.two.pose.position = pair.one.pose.position + distance * any_direction<Dim>(draw);
+  } while (!disjoint_at(pair, 0));
   return pair;
 }
 
-CollisionCase close_pair(Stream& draw, const Ellipse& e1, const Ellipse& e2) {
-  const CollisionCase pair = thermal_pair(draw, e1, e2);
+template <int Dim>
+CollisionCaseOf<Dim> close_pair(Stream& draw, const CollisionCaseOf<Dim>& pair) {
   return placed_apart(draw, pair, 0.2, 1.2);
 }
 
-/// Support function of an ellipse of constant size and its derivatives with the angle of n.
+/// The surface point of a body of size 1 whose outward normal is n, and how fast its support advances by rotation.
+template <int Dim>
 struct Support {
-  double h, slope, second, curvature;
-  Vec2 point;  ///< of the surface, where n is the outward normal
+  Vec<Dim> point;
+  double rate;
 };
-Support support(const Flight<GrowingEllipse>& flight, double normal_angle) {
+
+Support<3> support(const Moving<3>& flight, const Vec3& n) {
+  const Vec3 along = shape_matrix(flight.body.shape, flight.pose.orientation) * n;
+  const Vec3 point = along / std::sqrt(n.dot(along));
+  return {point, -point.dot(flight.motion.angular_velocity.cross(n))};
+}
+
+/// The same in the plane, where h'' + h is the radius of curvature.
+struct BentSupport : Support<2> {
+  double second, curvature;
+};
+BentSupport support(const Moving<2>& flight, const Vec2& n) {
   const auto& [a, b] = flight.body.shape;
-  const Vec2 u = unit(flight.pose.angle), across(-u.y(), u.x()), n = unit(normal_angle);
+  const Vec2 u = unit(flight.pose.angle), across(-u.y(), u.x());
   const double c = n.dot(u), s = n.dot(across);
   const double h = std::hypot(a * c, b * s);
-  const double curvature = a * a * b * b / (h * h * h);
-  return {h, -(a - b) * (a + b) * c * s / h, curvature - h, curvature,
-          (a * a * c * u + b * b * s * across) / h};
+  const double slope = -(a - b) * (a + b) * c * s / h, curvature = a * a * b * b / (h * h * h);
+  return {{(a * a * c * u + b * b * s * across) / h, -flight.motion.angular_velocity * slope},
+          curvature - h,
+          curvature};
 }
 
-/// How two bodies stand and move when their surfaces are closest, `gap` apart, the normal at
-/// `normal_angle` and the approach speed as given: shifts the second body and corrects its
-/// velocity along the normal. Tangent surfaces at a distance along their common normal are closest
-/// there, because both are convex.
-void bring_together(CollisionCase& pair, double normal_angle, double gap, double approach) {
-  const Support s1 = support(pair.one, normal_angle), s2 = support(pair.two, normal_angle);
-  const Vec2 n = unit(normal_angle);
+/// How two bodies stand and move when their surfaces are closest, `gap` apart along n, with this approach
+/// speed: shifts the second body and corrects its velocity along n. Tangent surfaces at a distance along their common
+/// normal are closest there, because both are convex.
+template <int Dim>
+void bring_together(CollisionCaseOf<Dim>& pair, const Vec<Dim>& n, double gap, double approach) {
+  const auto s1 = support(pair.one, n), s2 = support(pair.two, n);
   pair.two.pose.position = pair.one.pose.position + s1.point + s2.point + gap * n;
-  // The support advances by turning: ∂h/∂t = −ω h'.
-  const double advance =
-      -pair.one.motion.angular_velocity * s1.slope - pair.two.motion.angular_velocity * s2.slope;
   const double relative = (pair.two.motion.velocity - pair.one.motion.velocity).dot(n);
-  pair.two.motion.velocity += (advance - approach - relative) * n;
+  pair.two.motion.velocity += (s1.rate + s2.rate - approach - relative) * n;
 }
 
-double approach_speed(const CollisionCase& pair, double normal_angle) {
-  return pair.one.motion.velocity.dot(unit(normal_angle)) -
-         pair.two.motion.velocity.dot(unit(normal_angle)) -
-         pair.one.motion.angular_velocity * support(pair.one, normal_angle).slope -
-         pair.two.motion.angular_velocity * support(pair.two, normal_angle).slope;
-}
-
-/// d²/dt² of the largest support gap: g_tt + g_tφ²/(g + ρ₁ + ρ₂).
-double gap_acceleration(const CollisionCase& pair, double normal_angle, double gap) {
-  const Support s1 = support(pair.one, normal_angle), s2 = support(pair.two, normal_angle);
+/// d²/dt² of the largest support gap of a touching pair: g_tt + g_tφ²/(ρ₁ + ρ₂).
+double gap_acceleration(const CollisionCase& pair, const Vec2& n) {
+  const BentSupport s1 = support(pair.one, n), s2 = support(pair.two, n);
   const double w1 = pair.one.motion.angular_velocity, w2 = pair.two.motion.angular_velocity;
-  const Vec2 tangent = unit(normal_angle + pi / 2);
-  const double sideways = (pair.two.motion.velocity - pair.one.motion.velocity).dot(tangent) +
-                          w1 * s1.second + w2 * s2.second;
+  const double sideways =
+      (pair.two.motion.velocity - pair.one.motion.velocity).dot(perpendicular(n)) + w1 * s1.second +
+      w2 * s2.second;
   return -w1 * w1 * s1.second - w2 * w2 * s2.second +
-         sideways * sideways / (gap + s1.curvature + s2.curvature);
+         sideways * sideways / (s1.curvature + s2.curvature);
 }
 
-CollisionCase generic(Stream& draw, double kappa) {
-  return close_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
+/// By the second difference.
+double gap_acceleration(const EllipsoidCase& pair, const Vec3&) {
+  constexpr double step = 1e-3;
+  const auto gap = [&](double time) { return gap_at(pair, time); };
+  return static_cast<double>((gap(step) - 2 * gap(0) + gap(-step)) / (step * step));
 }
 
-CollisionCase grazing(Stream& draw, double kappa) {
-  const double wanted = signed_log_uniform(draw, 1e-12, 1e-3);
+/// Lets what stands at time 0 happen at `time` instead.
+template <int Dim>
+void happen_at(CollisionCaseOf<Dim>& pair, double time) {
+  for (Moving<Dim>* flight : {&pair.one, &pair.two})
+    flight->pose = advanced(flight->pose, flight->motion, -time);
+}
+
+/// The same, also of pairs that tumble.
+void happen_at(EllipsoidCase& pair, double time) {
+  if (!pair.tumbles()) return happen_at<3>(pair, time);
+  for (const int body : {0, 1}) {
+    Moving<3>& flight = body == 0 ? pair.one : pair.two;
+    flight.pose = pose_at(pair, body, -time);
+    flight.motion.angular_velocity = pair.tumbling[body].top.at(-time).angular_velocity;
+  }
+  let_tumble(pair);
+}
+
+// ---- classes in the plane and in space ----------------------------------------------------------------
+
+/// Random close pairs with thermal velocities.
+template <int Dim>
+CollisionCaseOf<Dim> generic(Stream& draw, double kappa) {
+  return close_pair(draw, thermal_pair<Dim>(draw, kappa));
+}
+
+/// The minimum gap within the horizon is between ±1e-12 and ±1e-3 shortest semi-axes; if it is negative, there are two
+/// close roots. A pair is chosen with the widest gap of the class, so that no sample stands in the overlap that is
+/// wanted; then the surfaces are brought to the gap wanted.
+template <int Dim, bool tumble = false>
+CollisionCaseOf<Dim> grazing(Stream& draw, double kappa) {
+  constexpr double widest = 1e-3;
+  constexpr int samples = 64;
+  const double wanted = signed_log_uniform(draw, 1e-12, widest);
   while (true) {
-    CollisionCase pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
-    const double unit_gap = pair.gap_unit(), normal_angle = any_angle(draw);
+    CollisionCaseOf<Dim> pair = thermal_pair<Dim>(draw, kappa);
+    const Vec<Dim> n = any_direction<Dim>(draw);
     const double when = draw.uniform(0.1, 0.9) * usual_horizon;
-    // Chosen with the widest gap of the class, so that no sample stands in the overlap that is
-    // wanted; then the surfaces are brought to the gap wanted.
-    constexpr double widest = 1e-3;
-    bring_together(pair, normal_angle, widest * unit_gap, 0);
-    if (gap_acceleration(pair, normal_angle, 0) < 0.1 * unit_gap) continue;
-    CollisionCase probe = pair;
+    const auto bring_to = [&](double gap) {
+      bring_together(pair, n, gap * pair.gap_unit(), 0);
+      if constexpr (tumble) let_tumble(pair);
+    };
+    bring_to(widest);
+    if (gap_acceleration(pair, n) < 0.1 * pair.gap_unit()) continue;
+    CollisionCaseOf<Dim> probe = pair;
     happen_at(probe, when);
-    if (!disjoint_at_samples(probe, usual_horizon, 64)) continue;
-    bring_together(pair, normal_angle, wanted * unit_gap, 0);
+    if (!disjoint_at_samples(probe, usual_horizon, samples)) continue;
+    bring_to(wanted);
     happen_at(pair, when);
     return pair;
   }
 }
 
-CollisionCase fast_rotation(Stream& draw, double kappa) {
-  CollisionCase pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
-  for (Flight<GrowingEllipse>* flight : {&pair.one, &pair.two}) {
-    const double sense = sign(draw);
-    flight->motion.angular_velocity = sense * draw.uniform(10, 60);
+/// Angular velocities of 10 to 60, so that the gap has many minima within the horizon.
+template <int Dim>
+CollisionCaseOf<Dim> fast_rotation(Stream& draw, double kappa) {
+  CollisionCaseOf<Dim> pair = thermal_pair<Dim>(draw, kappa);
+  for (Moving<Dim>* flight : {&pair.one, &pair.two}) {
+    if constexpr (Dim == 2)
+      flight->motion.angular_velocity = sign(draw);
+    else
+      flight->motion.angular_velocity = any_direction<3>(draw);
+    flight->motion.angular_velocity *= draw.uniform(10, 60);
   }
   return placed_apart(draw, pair, 0.5, 1.4);
 }
 
-CollisionCase aspect_ratios(Stream& draw, double largest) {
-  const double kappa1 = log_uniform(draw, 1, largest), kappa2 = log_uniform(draw, 1, largest);
-  return close_pair(draw, of_unit_area(kappa1), of_unit_area(kappa2));
+/// Initial gap of 1/4 to 5/4 of that of a declared contact, the surfaces approaching (sense 1) or separating (−1).
+template <int Dim, int sense>
+CollisionCaseOf<Dim> touching(Stream& draw, double kappa) {
+  while (true) {
+    CollisionCaseOf<Dim> pair = thermal_pair<Dim>(draw, kappa);
+    const double wanted = draw.uniform(0.25, 1.25) * pair.contact_gap();
+    const double speed = std::abs(std::sqrt(2.0) * draw.normal());
+    bring_together(pair, any_direction<Dim>(draw), wanted, sense * speed);
+    // What the stored doubles say.
+    const auto gap = static_cast<double>(gap_at(pair, 0));
+    if (gap >= 0.25 * pair.contact_gap() && gap <= 1.25 * pair.contact_gap()) return pair;
+  }
 }
 
+/// Bodies grow or shrink while they rotate; some start as a point.
+template <int Dim>
+CollisionCaseOf<Dim> growth(Stream& draw, double kappa) {
+  CollisionCaseOf<Dim> pair = thermal_pair<Dim>(draw, kappa);
+  let_grow(draw, pair);
+  return placed_apart(draw, pair, 0.2, 1.4);
+}
+
+/// Aspect ratios log-uniform from 1 to 100, drawn for each body.
+template <int Dim>
+CollisionCaseOf<Dim> aspect_ratios(Stream& draw, double largest) {
+  const auto ratio = [&] { return log_uniform(draw, 1, largest); };
+  if constexpr (Dim == 2) {
+    const double kappa1 = ratio(), kappa2 = ratio();
+    return close_pair(draw, pair_of(draw, of_unit_area(kappa1), of_unit_area(kappa2)));
+  } else {
+    const Moving<3> one = any_body<3>(draw, ratio());
+    return close_pair<3>(draw, {one, any_body<3>(draw, ratio()), usual_horizon});
+  }
+}
+
+// ---- classes in the plane -----------------------------------------------------------------------------
+
+/// Size ratios log-uniform from 1 to 1000, aspect ratios from 1 to 100.
 CollisionCase sizes(Stream& draw, double largest) {
   const Ellipse one = of_unit_area(log_uniform(draw, 1, largest));
   const Ellipse shape = of_unit_area(log_uniform(draw, 1, largest));
   const double size = log_uniform(draw, 1e-3, 1);
-  CollisionCase pair = thermal_pair(draw, one, {size * shape.a, size * shape.b});
+  CollisionCase pair = pair_of(draw, one, scaled(shape, size));
   // A small body turns as one of unit size would: fast rotation is a class of its own.
-  pair.two.motion.angular_velocity = thermal_turning(draw, shape);
-  return placed_apart(draw, pair, 0.2, 1.2);
+  pair.two.motion.angular_velocity = thermal_turning(draw, shape, 0);
+  return close_pair(draw, pair);
 }
 
+/// Crossed at the start with four intersections, so Ψ > 0 despite the overlap. (Ellipses of one area do not contain each
+/// other.)
 CollisionCase crossed_at_start(Stream& draw, double kappa) {
   while (true) {
-    CollisionCase pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
-    const double reach = 2 * pair.one.body.shape.a;
-    const Vec2 n = unit(any_angle(draw));
-    pair.two.pose.position = draw.uniform(0, 0.5) * reach * n;
-    const VieillardBaron<double> at = contact_function(pair, 0);
-    // Ψ of exactly four intersections: ellipses of one area do not contain each other.
+    CollisionCase pair = thermal_pair<2>(draw, kappa);
+    const Vec2 n = any_direction<2>(draw);
+    pair.two.pose.position = draw.uniform(0, 0.5) * pair.reach() * n;
+    const VieillardBaron<double> at = vieillard_baron_at(pair, 0);
     if (at.psi > 1e-3 && !at.disjoint()) return pair;
   }
 }
 
-CollisionCase touching(Stream& draw, double kappa, double sense) {
-  while (true) {
-    CollisionCase pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
-    const double wanted = draw.uniform(0.25, 1.25) * pair.contact_gap();
-    const double speed = std::abs(std::sqrt(2.0) * draw.normal());
-    bring_together(pair, any_angle(draw), wanted, sense * speed);
-    // What the stored doubles say.
-    const auto gap = static_cast<double>(true_gap(pair.one, pair.two, 0));
-    if (gap >= 0.25 * pair.contact_gap() && gap <= 1.25 * pair.contact_gap()) return pair;
-  }
-}
-CollisionCase touching_leaving(Stream& draw, double kappa) {
-  return touching(draw, kappa, -1);
-}
-CollisionCase touching_approaching(Stream& draw, double kappa) {
-  return touching(draw, kappa, 1);
-}
-
+/// Relative and angular velocities of order 1e-8, gaps scaled accordingly.
 CollisionCase slow(Stream& draw, double kappa) {
   constexpr double slowness = 1e-8;
-  CollisionCase pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
-  const Vec2 common = thermal_velocity(draw);
-  for (Flight<GrowingEllipse>* flight : {&pair.one, &pair.two}) {
+  CollisionCase pair = thermal_pair<2>(draw, kappa);
+  const Vec2 common = thermal_vector<2>(draw);
+  for (Moving<2>* flight : {&pair.one, &pair.two}) {
     flight->motion.velocity *= slowness;
     flight->motion.angular_velocity *= slowness;
   }
-  const double normal_angle = any_angle(draw);
-  double approach = approach_speed(pair, normal_angle);
+  const Vec2 n = any_direction<2>(draw);
+  double approach = pair.one.motion.velocity.dot(n) - pair.two.motion.velocity.dot(n) +
+                    support(pair.one, n).rate + support(pair.two, n).rate;
   if (approach < 0) {  // played backwards it is the other sense
-    for (Flight<GrowingEllipse>* flight : {&pair.one, &pair.two})
+    for (Moving<2>* flight : {&pair.one, &pair.two})
       flight->motion = {-flight->motion.velocity, -flight->motion.angular_velocity};
     approach = -approach;
   }
-  bring_together(pair, normal_angle, draw.uniform(0.1, 1.9) * approach * pair.horizon, approach);
+  bring_together(pair, n, draw.uniform(0.1, 1.9) * approach * pair.horizon, approach);
   pair.one.motion.velocity += common;
   pair.two.motion.velocity += common;
   return pair;
@@ -232,11 +305,13 @@ CollisionCase slow(Stream& draw, double kappa) {
 
 CollisionCase round_pair(Stream& draw, double excess) {
   const double b1 = log_uniform(draw, 0.5, 2), b2 = log_uniform(draw, 0.5, 2);
-  return close_pair(draw, {b1 * (1 + excess), b1}, {b2 * (1 + excess), b2});
+  return close_pair(draw, pair_of(draw, {b1 * (1 + excess), b1}, {b2 * (1 + excess), b2}));
 }
+/// Aspect ratios 1 + 1e-12.
 CollisionCase nearly_circular(Stream& draw, double /*kappa*/) {
   return round_pair(draw, 1e-12);
 }
+/// Circles represented as ellipses.
 CollisionCase round(Stream& draw, double /*kappa*/) {
   return round_pair(draw, 0);
 }
@@ -245,32 +320,35 @@ CollisionCase round(Stream& draw, double /*kappa*/) {
 /// empty horizon if something is.
 CollisionCase meeting(Stream& draw, CollisionCase pair, double normal_angle) {
   const double when = draw.uniform(0.05, 0.6);
-  bring_together(pair, normal_angle, 0, draw.uniform(0.2, 3));
+  bring_together<2>(pair, unit(normal_angle), 0, draw.uniform(0.2, 3));
   happen_at(pair, when);
   pair.horizon = disjoint_at_samples(pair, when, 32) ? draw.uniform(0.6, 2) * when : 0;
   return pair;
 }
 
+/// Flat sides, parallel exactly or to within 1e-6, meet before or just after the horizon.
 CollisionCase parallel_sides(Stream& draw, double kappa) {
   CollisionCase pair;
   do {
-    pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
+    pair = thermal_pair<2>(draw, kappa);
     const auto off = [&] {
       return draw.uniform() < 0.125 ? 0 : signed_log_uniform(draw, 1e-12, 1e-6);
     };
     pair.two.pose.angle = pair.one.pose.angle + off();
     pair.two.motion.angular_velocity = pair.one.motion.angular_velocity + off();
-    pair.two.motion.velocity = pair.one.motion.velocity + 0.1 * thermal_velocity(draw);
-    const double normal_angle = pair.one.pose.angle + pi / 2 + 0.1 * draw.normal() / kappa;
+    pair.two.motion.velocity = pair.one.motion.velocity + 0.1 * thermal_vector<2>(draw);
+    const double normal_angle =
+        pair.one.pose.angle + std::numbers::pi / 2 + 0.1 * draw.normal() / kappa;
     pair = meeting(draw, pair, normal_angle);
   } while (pair.horizon == 0);
   return pair;
 }
 
+/// The tip of one body meets the other before or just after the horizon.
 CollisionCase tip(Stream& draw, double kappa) {
   CollisionCase pair;
   do {
-    pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
+    pair = thermal_pair<2>(draw, kappa);
     const double normal_angle = pair.one.pose.angle + 0.1 * draw.normal() / kappa;
     if (draw.uniform() < 0.25) pair.two.pose.angle = normal_angle + 0.1 * draw.normal() / kappa;
     pair = meeting(draw, pair, normal_angle);
@@ -278,56 +356,176 @@ CollisionCase tip(Stream& draw, double kappa) {
   return pair;
 }
 
+/// Close pairs a million semi-major axes from the origin.
 CollisionCase large_coordinates(Stream& draw, double kappa) {
-  const Ellipse ellipse = of_unit_area(kappa);
-  const Vec2 far = 1e6 * ellipse.a * unit(any_angle(draw));
-  const CollisionCase pair = thermal_pair(draw, ellipse, ellipse);
-  return placed_apart(draw, pair, 0.2, 1.2, far);
+  const Vec2 far = 1e6 * of_unit_area(kappa).a * any_direction<2>(draw);
+  CollisionCase pair = thermal_pair<2>(draw, kappa);
+  pair.one.pose.position = far;
+  return close_pair(draw, pair);
 }
 
-CollisionCase growth(Stream& draw, double kappa) {
-  CollisionCase pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
-  let_grow(draw, pair);
-  return placed_apart(draw, pair, 0.2, 1.4);
+// ---- classes in space ---------------------------------------------------------------------------------
+
+/// As in the plane.
+EllipsoidCase sizes_of_solids(Stream& draw, double largest) {
+  const auto body = [&] {
+    const double kappa = log_uniform(draw, 1, largest);
+    return any_body<3>(draw, kappa);
+  };
+  EllipsoidCase pair{body(), body(), usual_horizon};
+  Ellipsoid& small = pair.two.body.shape;
+  small = scaled(small, log_uniform(draw, 1e-3, 1));
+  return close_pair(draw, pair);
+}
+
+/// Bodies of the same shape, parallel and rotating alike, as a body and its image: η₁ = 0 at all times.
+EllipsoidCase parallel_congruent(Stream& draw, double kappa) {
+  EllipsoidCase pair = thermal_pair<3>(draw, kappa);
+  pair.two.body = pair.one.body;
+  pair.two.pose.orientation = pair.one.pose.orientation;
+  pair.two.motion.angular_velocity = pair.one.motion.angular_velocity;
+  return close_pair(draw, pair);
+}
+
+/// Only the rotation of scalene bodies differs: it is that of Euler's equations.
+template <EllipsoidCase (*draw_pair)(Stream&, double)>
+EllipsoidCase tumbling(Stream& draw, double kappa) {
+  EllipsoidCase pair = draw_pair(draw, kappa);
+  let_tumble(pair);
+  return pair;
+}
+
+/// The axes in the order of their moments.
+std::array<int, 3> by_moment(const Ellipsoid& shape) {
+  std::array<int, 3> axes{0, 1, 2};
+  std::ranges::sort(axes, std::greater<>{}, [&](int k) { return shape.semi_axes[k]; });
+  return axes;
+}
+
+/// Both bodies scalene, with angular velocities along their own axes as drawn by `spin`.
+template <class Spin>
+EllipsoidCase scalene_pair(Stream& draw, double kappa, const Spin& spin) {
+  EllipsoidCase pair = thermal_pair<3>(draw, kappa);
+  for (Moving<3>* flight : {&pair.one, &pair.two}) {
+    const double middle = std::pow(kappa, draw.uniform(0.1, 0.9));
+    Ellipsoid& shape = flight->body.shape;
+    shape = {Vec3(kappa, middle, 1) / std::cbrt(kappa * middle)};
+    flight->motion.angular_velocity = flight->pose.orientation * spin(shape);
+  }
+  return close_pair(draw, pair);
+}
+
+/// How far from the uniform rotation or the separatrix, relative to the angular velocity.
+double small_deviation(Stream& draw) {
+  return signed_log_uniform(draw, 1e-12, 1e-1);
+}
+
+/// Angular velocities along a principal axis up to a relative deviation between 1e-12 and 0.1, the unstable axis as often
+/// as the others.
+EllipsoidCase nearly_uniform(Stream& draw, double kappa) {
+  return scalene_pair(draw, kappa, [&](const Ellipsoid& shape) -> Vec3 {
+    const auto axis = static_cast<int>(draw.below(3));
+    const double speed = draw.normal() / std::sqrt(shape.inertia_per_mass()[axis]);
+    Vec3 omega = any_direction<3>(draw);
+    omega *= speed * small_deviation(draw);
+    omega[axis] = speed;
+    return omega;
+  });
+}
+
+/// L² = 2EI₂ up to a relative deviation of ω₃ between 1e-12 and 0.1: I₃(I₃ − I₂) ω₃² = I₁(I₂ − I₁) ω₁², whatever ω₂.
+EllipsoidCase near_separatrix(Stream& draw, double kappa) {
+  return scalene_pair(draw, kappa, [&](const Ellipsoid& shape) -> Vec3 {
+    const auto [one, two, three] = by_moment(shape);
+    const Vec3 moments = shape.inertia_per_mass();
+    Vec3 omega = thermal_vector<3>(draw).cwiseQuotient(moments.cwiseSqrt());
+    const double ratio = moments[one] * (moments[two] - moments[one]) /
+                         (moments[three] * (moments[three] - moments[two]));
+    omega[three] = sign(draw) * std::sqrt(ratio) * omega[one];
+    omega[three] *= 1 + small_deviation(draw);
+    return omega;
+  });
+}
+
+// ---- the list -----------------------------------------------------------------------------------------
+
+/// FNV-1a, so that a class keeps its cases whatever classes stand beside it.
+std::uint64_t key_of(const std::string& name, double aspect_ratio) {
+  std::uint64_t key = 0xcbf29ce484222325U;
+  for (const char c : name + std::to_string(aspect_ratio)) {
+    key ^= static_cast<unsigned char>(c);
+    key *= 0x100000001b3U;
+  }
+  return key;
+}
+
+template <int Dim>
+struct Entry {
+  const char* name;
+  CollisionCaseOf<Dim> (*make)(Stream&, double kappa);
+  std::vector<double> aspect_ratios;
+};
+
+template <int Dim>
+std::vector<Entry<Dim>> entries() {
+  const std::vector<double> usual{2, Dim == 2 ? 6. : 10.}, drawn{100}, none{1}, flat{2, 20};
+  std::vector<Entry<Dim>> all = {{"generic", generic<Dim>, usual},
+                                 {"grazing", grazing<Dim>, usual},
+                                 {"fast_rotation", fast_rotation<Dim>, usual},
+                                 {"aspect_ratios", aspect_ratios<Dim>, drawn}};
+  const auto add = [&](std::initializer_list<Entry<Dim>> more) { all.insert(all.end(), more); };
+  if constexpr (Dim == 2)
+    add({{"sizes", sizes, drawn},
+         {"crossed_at_start", crossed_at_start, usual},
+         {"touching_leaving", touching<2, -1>, usual},
+         {"touching_approaching", touching<2, 1>, usual},
+         {"slow", slow, usual},
+         {"nearly_circular", nearly_circular, none},
+         {"round", round, none},
+         {"parallel_sides", parallel_sides, usual},
+         {"tip", tip, usual},
+         {"large_coordinates", large_coordinates, usual},
+         {"growth", growth<2>, usual}});
+  else
+    add({{"sizes", sizes_of_solids, drawn},
+         {"growth", growth<3>, usual},
+         {"touching_leaving", touching<3, -1>, usual},
+         {"parallel_congruent", parallel_congruent, usual},
+         {"tumbling", tumbling<generic<3>>, flat},
+         {"tumbling_grazing", grazing<3, true>, flat},
+         {"tumbling_fast", tumbling<fast_rotation<3>>, flat},
+         {"tumbling_leaving", tumbling<touching<3, -1>>, flat},
+         {"tumbling_nearly_uniform", tumbling<nearly_uniform>, flat},
+         {"tumbling_near_separatrix", tumbling<near_separatrix>, flat}});
+  return all;
 }
 
 }  // namespace
 
-std::vector<CaseClass> stability_suite() {
-  DrawnClasses<2> classes;
-  classes.add("generic", "random close pairs with thermal velocities", generic, {2, 6});
-  classes.add("grazing",
-              "the gap has a minimum between ±1e-12 and ±1e-3 semi-minor axes within the horizon",
-              grazing, {2, 6});
-  classes.add("fast_rotation",
-              "angular velocities of 10 to 60, so that the gap has many minima within the horizon",
-              fast_rotation, {2, 6});
-  classes.add("aspect_ratios", "aspect ratios log-uniform from 1 to 100, drawn for each body",
-              aspect_ratios, {100});
-  classes.add("sizes", "size ratios log-uniform from 1 to 1000, aspect ratios from 1 to 100", sizes,
-              {100});
-  classes.add("crossed_at_start",
-              "crossed at the start with four intersections, so Ψ > 0 despite the overlap",
-              crossed_at_start, {2, 6});
-  classes.add("touching_leaving", "initial gap of 1/4 to 5/4 contact gaps, separating",
-              touching_leaving, {2, 6});
-  classes.add("touching_approaching", "initial gap of 1/4 to 5/4 contact gaps, approaching",
-              touching_approaching, {2, 6});
-  classes.add("slow", "relative and angular velocities of order 1e-8, gaps scaled accordingly",
-              slow, {2, 6});
-  classes.add("nearly_circular", "aspect ratios 1 + 1e-12", nearly_circular, {1});
-  classes.add("round", "circles represented as ellipses", round, {1});
-  classes.add(
-      "parallel_sides",
-      "flat sides, parallel exactly or to within 1e-6, meet before or just after the horizon",
-      parallel_sides, {2, 6});
-  classes.add("tip", "the tip of one body meets the other before or just after the horizon", tip,
-              {2, 6});
-  classes.add("large_coordinates", "close pairs a million semi-major axes from the origin",
-              large_coordinates, {2, 6});
-  classes.add("growth", "bodies grow or shrink while they rotate; some start as a point", growth,
-              {2, 6});
-  return classes.list();
+template <int Dim>
+std::vector<CaseClassOf<Dim>> stability_suite() {
+  std::vector<CaseClassOf<Dim>> list;
+  for (const auto& [name, make, aspect_ratios] : entries<Dim>())
+    for (const double kappa : aspect_ratios)
+      list.push_back({name, kappa,
+                      [make = make, kappa, key = key_of(name, kappa)](std::uint64_t seed,
+                                                                      std::uint64_t index) {
+                        Stream draw(seed, Purpose::benchmark_cases, key, index);
+                        return make(draw, kappa);
+                      }});
+  return list;
+}
+
+template std::vector<CaseClassOf<2>> stability_suite();
+template std::vector<CaseClassOf<3>> stability_suite();
+
+EllipsoidCase passing_pair(double depth) {
+  const auto solid = [](const Vec3& semi_axes, const Vec3& position,
+                        const Vec3& velocity) -> Moving<3> {
+    return {{{semi_axes}, 1, 0}, {position, Quaternion::Identity()}, {velocity, Vec3::Zero()}};
+  };
+  return {solid({2, 1, 1.2}, {0, 0, 0}, {0, 0, 0}),
+          solid({1.5, 1, 0.8}, {3, 2 - depth, 0}, {-1, 0, 0}), 5.12};
 }
 
 }  // namespace vitrel::bench

@@ -3,9 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/reference/true_gap.h"
-#include "bench/surveys/ellipsoid_reference.h"
-
 namespace vitrel::bench {
 
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/methods/collision_case.h"
-#include "bench/reference/first_contact.h"
+#include "bench/surveys/true_contact.h"
 #include "core/contact/first_contact.h"
 
 namespace vitrel::bench {

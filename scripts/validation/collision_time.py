@@ -54,7 +54,7 @@ def measure(build):
     expect(PAIRS < 800_000 or pairs >= MIN_PAIRS, f"only {pairs} pairs in total")
     head = ["class", "largest κ", "pairs", "contacts", "degenerate", "largest error", "largest gap"]
     return f"""`vitrel bench contact-time plane` runs the default method on {pairs} pairs of {len(measured)} classes and compares every answer with
-the reference in 80-bit interval arithmetic. Required: no answer is late, missed, false or lacking, and none is early by
+the reference in 80-bit arithmetic. Required: no answer is late, missed, false or lacking, and none is early by
 more than {TIME_TOLERANCE:g} of the horizon (*largest error*, in fractions of the horizon). Degenerate pairs are exempt: their
 surfaces cross so slowly (below 0.02 (a₁ + a₂)/horizon) that the time is ill-defined. For these, and for a reported contact
 of a pair that does not quite touch, the true gap at the reported time (*largest gap*) must be at most {LARGEST_GAP:g} contact

@@ -1,4 +1,4 @@
-// The contact screen against the guaranteed reference: never late, whatever the axis.
+// The contact screen against the reference: never late, whatever the axis.
 
 #include "core/contact/contact_screen.h"
 
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "bench/reference/first_contact.h"
+#include "bench/surveys/true_contact.h"
 #include "core/contact/ellipse_contact_screen.h"
 #include "core/contact/ellipse_gap.h"
 #include "core/random/stream.h"
@@ -113,9 +113,9 @@ bench::TrueContact truth_of(const Scene& scene, const Partner& partner) {
   const auto grown = [&](const Ellipse& shape) {
     return GrowingEllipse{shape, scene.common.size, scene.common.growth_rate};
   };
-  return true_first_contact<long double>({grown(scene.shape), scene.pose, scene.motion},
-                                         {grown(partner.shape), partner.pose, partner.motion},
-                                         partner.horizon);
+  return true_first_contact<GrowingEllipse>({grown(scene.shape), scene.pose, scene.motion},
+                                            {grown(partner.shape), partner.pose, partner.motion},
+                                            partner.horizon);
 }
 
 /// The time of every lane, asked for as a run does: the most urgent first.

@@ -6,11 +6,10 @@
 #include <cmath>
 #include <map>
 
-#include "bench/methods/ellipsoids/eta_root.h"
-#include "bench/methods/ellipsoids/methods.h"
+#include "bench/methods/ellipsoids/roots.h"
+#include "bench/methods/method.h"
 #include "bench/methods/opening.h"
-#include "bench/surveys/ellipsoid_reference.h"
-#include "bench/surveys/ellipsoid_suite.h"
+#include "bench/surveys/stability_suite.h"
 #include "bench/surveys/verdict.h"
 #include "core/contact/ellipsoid_eta.h"
 #include "core/geometry/free_flight.h"
@@ -104,7 +103,7 @@ bool overlap_by_criterion(const EllipsoidCase& asked, long double time) {
 TEST(TrueContactOfSolids, ScansAndBisectionSayTheSame) {
   constexpr int samples = 1000;
   int contacts = 0;
-  for (const CaseClassOf<3>& of : ellipsoid_suite()) {
+  for (const CaseClassOf<3>& of : stability_suite<3>()) {
     if (leaves(of)) continue;  // its gap is that of the roundings
     for (std::uint64_t index = 0; index < 40; ++index) {
       const EllipsoidCase asked = make_case(of, seed + 1, index);
@@ -149,7 +148,7 @@ TEST(TrueContactOfSolids, ShortOverlapsHaveTheLengthOfTheParabola) {
 
 // I₃(I₃ − I₂) ω₃² = I₁(I₂ − I₁) ω₁² up to a factor (1 ± 0.1)².
 TEST(TumblingClasses, NearSeparatrixHasTheEnergyOfTheMiddleAxis) {
-  for (const CaseClassOf<3>& of : ellipsoid_suite()) {
+  for (const CaseClassOf<3>& of : stability_suite<3>()) {
     if (of.name != "tumbling_near_separatrix") continue;
     for (std::uint64_t index = 0; index < 100; ++index) {
       const EllipsoidCase asked = make_case(of, seed, index);
@@ -170,7 +169,7 @@ TEST(TumblingClasses, NearSeparatrixHasTheEnergyOfTheMiddleAxis) {
 
 // Close to the separatrix rounding of the initial state moves the contact by some 1e-10, of which ten are allowed.
 TEST(TumblingClasses, AreAsWellKnownAsTheirInitialState) {
-  for (const CaseClassOf<3>& of : ellipsoid_suite()) {
+  for (const CaseClassOf<3>& of : stability_suite<3>()) {
     if (of.name != "tumbling_near_separatrix" || of.aspect_ratio != 20) continue;
     constexpr std::uint64_t sensitive = 16'201;
     const EllipsoidCase asked = make_case(of, seed, sensitive);
@@ -199,7 +198,7 @@ struct Named {
 };
 std::vector<Named> all_classes() {
   std::vector<Named> all;
-  for (const CaseClassOf<3>& of : ellipsoid_suite()) all.push_back({of});
+  for (const CaseClassOf<3>& of : stability_suite<3>()) all.push_back({of});
   return all;
 }
 
@@ -209,7 +208,7 @@ TEST_P(DefaultMethodOfSolids, IsNeverWrong) {
   const CaseClassOf<3>& of = GetParam().of;
   // As for ellipses (default_method_test.cpp).
   constexpr AllowedError tolerance{1e-12, 1e-8};
-  const MethodOf<3> method = ellipsoid_methods().front();
+  const MethodOf<3> method = collision_time_methods<3>().front();
   std::map<Verdict, int> verdicts;
   int contacts = 0, crossings = 0, undecided = 0;
   // There the reference takes some ten milliseconds for a pair.
@@ -237,7 +236,7 @@ TEST(RootsOfSolids, ACloseDoublePairIsSteppedOver) {
   const EllipsoidCase asked = passing_pair(3e-5);
   const TrueEllipsoidContact truth = truth_of(asked);
   ASSERT_EQ(truth.outcome, Truth::contact);
-  for (const MethodOf<3>& method : ellipsoid_methods()) {
+  for (const MethodOf<3>& method : collision_time_methods<3>()) {
     const Prediction3 answer = method.predict(asked);
     if (method.name == "separating_axis") {
       EXPECT_EQ(answer.outcome, Outcome::contact);
@@ -255,7 +254,7 @@ TEST(RootsOfSolids, ACloseDoublePairIsSteppedOver) {
 TEST(RootsOfSolids, TheSignsOfContactFollowARootOfEta) {
   int found = 0;
   for (std::uint64_t index = 0; index < 300; ++index) {
-    const EllipsoidCase asked = make_case(ellipsoid_suite().front(), seed, index);
+    const EllipsoidCase asked = make_case(stability_suite<3>().front(), seed, index);
     const TrueEllipsoidContact truth = truth_of(asked);
     const Prediction3 answer = eta_root(asked, 1e-3);
     if (truth.outcome != Truth::contact || answer.outcome != Outcome::contact) continue;
@@ -269,7 +268,7 @@ TEST(RootsOfSolids, TheSignsOfContactFollowARootOfEta) {
 // η₁ vanishes at all times: its signs are those of rounding.
 TEST(RootsOfSolids, ParallelBodiesOfOneShapeAreMissedByEta) {
   int contacts = 0, missed = 0;
-  for (const CaseClassOf<3>& of : ellipsoid_suite()) {
+  for (const CaseClassOf<3>& of : stability_suite<3>()) {
     if (of.name != "parallel_congruent") continue;
     for (std::uint64_t index = 0; index < 300; ++index) {
       const EllipsoidCase asked = make_case(of, seed, index);

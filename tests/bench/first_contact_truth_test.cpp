@@ -1,11 +1,12 @@
-// The predictor of the engine against the guaranteed reference.
+// The predictor of the engine against the reference.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "bench/reference/first_contact.h"
+#include "bench/methods/collision_case.h"
+#include "bench/surveys/true_contact.h"
 #include "core/contact/first_contact.h"
 #include "core/geometry/free_flight.h"
 #include "core/random/stream.h"
@@ -14,8 +15,13 @@
 namespace vitrel {
 namespace {
 
-using bench::true_first_contact;
 using Truth = bench::TrueContact::Outcome;
+
+bench::TrueContact true_first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two,
+                                      double horizon) {
+  return bench::true_first_contact(bench::of_constant_size(one), bench::of_constant_size(two),
+                                   horizon);
+}
 
 struct Pair {
   Flight<Ellipse> one, two;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/methods/ellipsoids/methods.h"
+#include "bench/methods/method.h"
 #include "tests/app/program.h"
 
 namespace vitrel::bench {
@@ -63,7 +63,7 @@ TEST_F(BenchPair, EveryMethodFindsTheContactOfTheThesis) {
 
 TEST_F(BenchPair, EllipsoidsTumbleForEveryMethod) {
   const Json found = rows({tumbling_pair});
-  ASSERT_EQ(found.size(), ellipsoid_methods().size());
+  ASSERT_EQ(found.size(), collision_time_methods<3>().size());
   const Json constant = rows({"rotation = \"constant\"\n" + tumbling_pair});
   for (std::size_t k = 0; k < found.size(); ++k) {
     EXPECT_NEAR(found[k]["difference"], 0, 1e-12);

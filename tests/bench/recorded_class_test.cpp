@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "bench/methods/method.h"
-#include "bench/reference/true_gap.h"
 #include "bench/surveys/verdict.h"
 
 namespace vitrel::bench {

@@ -1,4 +1,4 @@
-#include "bench/reference/true_gap.h"
+#include "bench/surveys/true_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -29,9 +29,11 @@ TEST(TrueGap, MovingAndGrowing) {
   two.body.growth_rate = 0.5;
   // At t = 4: centres 5 apart, semi-minor axes 1 and 0.5 · 3.
   EXPECT_NEAR(static_cast<double>(true_gap(one, two, 4) - 2.5L), 0, 1e-18);
-  const ClosestSurfaces there = closest_surfaces(one, two, 4);
-  EXPECT_NEAR((there.normal - Vec2(0, 1)).norm(), 0, 1e-15);
-  EXPECT_NEAR(static_cast<double>(there.approach_speed), 1.25, 1e-15);
+  // 9 − t = 1 + 0.5 (1 + t/2)
+  const TrueContact contact = true_first_contact(one, two, 8);
+  EXPECT_NEAR(static_cast<double>(contact.time - 6), 0, 1e-18);
+  EXPECT_NEAR((contact.normal - Vec2(0, 1)).norm(), 0, 1e-15);
+  EXPECT_NEAR(contact.approach_speed, 1.25, 1e-15);
 }
 
 // Turned by π/2 at the time asked: tip against flat side, 6 − 2 − 0.25.
@@ -44,15 +46,16 @@ TEST(TrueGap, TipAgainstSide) {
 // To first order in a − b, h = b + (a − b) cos²(φ − θ); then dg/dφ = 0 turns the normal from the line
 // of centres by Σ (a − b) sin 2(φ − θ)/|d|.
 TEST(TrueGap, NormalOfNearlyRoundBodies) {
-  constexpr double excess = 1e-12, distance = 3, phi = std::numbers::pi / 2;
+  constexpr double excess = 1e-12, distance = 2, phi = std::numbers::pi / 2;
   for (int k = 0; k < 100; ++k) {
     const double first = 0.1 * k, second = 0.3 * k + 1;
     const Body one = at_rest({1 + excess, 1}, {0, 0}, first);
-    const Body two = at_rest({1 + excess, 1}, {0, distance}, second);
+    Body two = at_rest({1 + excess, 1}, {0, distance + 1}, second);
+    two.motion.velocity = {0, -1};
     const double turn =
         excess * (std::sin(2 * (phi - first)) + std::sin(2 * (phi - second))) / distance;
     // The normal's x is −turn; a − b is off by the rounding of 1 + 1e-12.
-    EXPECT_NEAR(closest_surfaces(one, two, 0).normal.x(), -turn, 3e-16);
+    EXPECT_NEAR(true_first_contact(one, two, 2).normal.x(), -turn, 3e-16);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "bench/surveys/ellipsoid_reference.h"
+#include "bench/surveys/true_contact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,6 @@ namespace {
 using Real = long double;
 using Vector = exact::Point<3, Real>;
 using Matrix = Eigen::Matrix<Real, 3, 3>;
-using Outcome = TrueEllipsoidContact::Outcome;
 
 constexpr Real rounding = std::numeric_limits<Real>::epsilon();
 
@@ -39,6 +38,14 @@ Matrix turn(const Vector& turned) {
   return Matrix::Identity() + std::sin(angle) * u + 2 * half * half * (u * u);
 }
 
+/// A vector of the plane in space.
+Vector in_space(const Vec2& v) {
+  return {v.x(), v.y(), 0};
+}
+Vector in_space(const Vec3& v) {
+  return v.cast<Real>();
+}
+
 class Body {
  public:
   Body(const Flight<GrowingEllipsoid>& flight, Real)
@@ -47,6 +54,16 @@ class Body {
         size_(flight.body.size),
         growth_(flight.body.growth_rate),
         omega_(flight.motion.angular_velocity.cast<Real>()) {}
+  /// As the section of a spheroid.
+  Body(const Flight<GrowingEllipse>& flight, Real end)
+      : Body({{{Vec3(flight.body.shape.a, flight.body.shape.b, flight.body.shape.a)},
+               flight.body.size,
+               flight.body.growth_rate},
+              {Vec3::Zero(), Quaternion::Identity()},
+              {Vec3::Zero(), Vec3(0, 0, flight.motion.angular_velocity)}},
+             end) {
+    at_start_.directions = turn(Vector(0, 0, flight.pose.angle));
+  }
   Body(const Flight<TumblingEllipsoid>& flight, Real end)
       : Body({{flight.body.shape, 1, 0}, flight.pose, flight.motion}, end) {
     constexpr int scalene = 3;
@@ -60,7 +77,7 @@ class Body {
 
   /// A small body for a point.
   EllipsoidAxes<Real> axes_at(Real time) const {
-    constexpr Real smallest = 1e-9L;
+    constexpr Real smallest = 1e-18L;
     EllipsoidAxes<Real> axes = at_start_;
     axes.directions = rotation_at(time).axes;
     axes.lengths *= std::max(size_at(time), smallest);
@@ -113,17 +130,13 @@ class Body {
   std::optional<TaylorTop> top_;  ///< of a scalene body that tumbles
 };
 
-Vector difference(const Vec3& to, const Vec3& from) {
-  return to.cast<Real>() - from.cast<Real>();
-}
-
 struct Pair {
   template <class B>
   Pair(const Flight<B>& first, const Flight<B>& second, Real end)
       : one(first, end),
         two(second, end),
-        start(difference(second.pose.position, first.pose.position)),
-        velocity(difference(second.motion.velocity, first.motion.velocity)) {}
+        start(in_space(second.pose.position) - in_space(first.pose.position)),
+        velocity(in_space(second.motion.velocity) - in_space(first.motion.velocity)) {}
 
   Vector d(Real time) const { return start + velocity * time; }
 
@@ -144,7 +157,7 @@ struct Pair {
 
   /// By how much a gap may be off.
   Real blur(Real time) const {
-    return 64 * rounding *
+    return 8 * rounding *
            (d(time).norm() + one.radius_at(time) * (1 + one.phase(time)) +
             two.radius_at(time) * (1 + two.phase(time)));
   }
@@ -186,87 +199,78 @@ Real last_time(Real yes, Real no, const Condition& holds) {
   }
 }
 
+/// Where the search ends.
+struct Found {
+  TruthOutcome outcome = TruthOutcome::none;
+  Real time = 0, uncertainty = 0;
+  int pieces = 0;
+};
+
 /// The surfaces touch where the overlap begins, as computed; rounding may hide a gap as large as the one before it.
-TrueEllipsoidContact crossing_between(const Pair& pair, Real disjoint, Real overlapping,
-                                      int pieces) {
-  TrueEllipsoidContact found;
-  found.outcome = Outcome::contact;
-  found.time = last_time(disjoint, overlapping, [&](Real t) { return !pair.overlapping(t); });
-  found.uncertainty =
-      found.time - last_time(disjoint, found.time, [&](Real t) { return pair.disjoint(t); });
-  found.pieces = pieces;
-  return found;
+Found crossing_between(const Pair& pair, Real disjoint, Real overlapping, int pieces) {
+  const Real time = last_time(disjoint, overlapping, [&](Real t) { return !pair.overlapping(t); });
+  const Real known = last_time(disjoint, time, [&](Real t) { return pair.disjoint(t); });
+  return {TruthOutcome::contact, time, time - known, pieces};
 }
 
-TrueEllipsoidContact search(const Pair& pair, Real horizon) {
+Found search(const Pair& pair, Real horizon) {
   constexpr int max_pieces = 10'000'000;
-  TrueEllipsoidContact found;
-  if (pair.overlapping(0)) {
-    found.outcome = Outcome::overlap_at_start;
-    return found;
-  }
+  if (pair.overlapping(0)) return {TruthOutcome::overlap_at_start};
   const Real bend = pair.one.bend(horizon) + pair.two.bend(horizon);
   Real time = 0;
-  for (int pieces = 1; pieces <= max_pieces; ++pieces) {
-    found.pieces = pieces;
+  int pieces = 1;
+  for (; pieces <= max_pieces; ++pieces) {
     const Pair::Separation here = pair.separation(time);
     const Real gap = here.gap - pair.blur(time);
     const Real next = gap > 0 ? time + safe_step(gap, here.rate, bend) : time;
     if (next > time) {
-      if (!(next < horizon)) return found;
+      if (!(next < horizon)) return {TruthOutcome::none, 0, 0, pieces};
       time = next;
     } else if (const auto overlap = overlap_beyond(pair, time, -here.rate)) {
-      found = crossing_between(pair, time, *overlap, pieces);
-      if (found.time > horizon) found.outcome = Outcome::none;
-      return found;
+      const Found found = crossing_between(pair, time, *overlap, pieces);
+      return found.time > horizon ? Found{TruthOutcome::none, 0, 0, pieces} : found;
     } else {
       break;
     }
   }
-  found.outcome = Outcome::undecided;
-  found.time = time;
-  return found;
+  return {TruthOutcome::undecided, time, 0, pieces};
 }
 
-TrueEllipsoidContact described_contact(const Pair& pair, double horizon) {
-  TrueEllipsoidContact found = search(pair, horizon);
-  if (found.outcome == Outcome::contact || found.outcome == Outcome::undecided) {
-    const Pair::Separation there = pair.separation(found.time);
-    found.normal = there.normal.cast<double>();
-    found.approach_speed = static_cast<double>(-there.rate);
-  }
-  return found;
-}
-
-long double gap(const Pair& pair, Real time) {
-  const auto particle = [&](const Body& body, const Vector& centre) -> exact::Particle<3, Real> {
-    return {centre, body.axes_at(time), body.radius_at(time), body.is_round()};
-  };
-  return exact::examine(particle(pair.one, Vector::Zero()), particle(pair.two, pair.d(time)),
-                        pair.d(time), std::numeric_limits<Real>::infinity())
-      .gap;
+exact::Particle<3, Real> particle(const Body& body, const Vector& centre, Real time) {
+  return {centre, body.axes_at(time), body.radius_at(time), body.is_round()};
 }
 
 }  // namespace
 
-TrueEllipsoidContact true_first_contact(const Flight<GrowingEllipsoid>& one,
-                                        const Flight<GrowingEllipsoid>& two, double horizon) {
-  return described_contact({one, two, horizon}, horizon);
+template <class B>
+TrueContactOf<B::dimension> true_first_contact(const Flight<B>& one, const Flight<B>& two,
+                                               double horizon) {
+  const Pair pair(one, two, horizon);
+  const Found found = search(pair, horizon);
+  TrueContactOf<B::dimension> contact{found.outcome, found.time, found.uncertainty, found.pieces};
+  if (found.outcome == TruthOutcome::contact || found.outcome == TruthOutcome::undecided) {
+    const Pair::Separation there = pair.separation(found.time);
+    contact.normal = there.normal.head<B::dimension>().template cast<double>();
+    contact.approach_speed = static_cast<double>(-there.rate);
+  }
+  return contact;
 }
 
-TrueEllipsoidContact true_first_contact(const Flight<TumblingEllipsoid>& one,
-                                        const Flight<TumblingEllipsoid>& two, double horizon) {
-  return described_contact({one, two, horizon}, horizon);
+template <class B>
+long double true_gap(const Flight<B>& one, const Flight<B>& two, long double time) {
+  const Pair pair(one, two, time);
+  const Vector d = pair.d(time);
+  return exact::examine(particle(pair.one, Vector::Zero(), time), particle(pair.two, d, time), d,
+                        std::numeric_limits<Real>::infinity())
+      .gap;
 }
 
-long double true_gap(const Flight<GrowingEllipsoid>& one, const Flight<GrowingEllipsoid>& two,
-                     long double time) {
-  return gap({one, two, time}, time);
-}
-
-long double true_gap(const Flight<TumblingEllipsoid>& one, const Flight<TumblingEllipsoid>& two,
-                     long double time) {
-  return gap({one, two, time}, time);
-}
+#define VITREL_INSTANTIATE(B)                                                                 \
+  template TrueContactOf<B::dimension> true_first_contact(const Flight<B>&, const Flight<B>&, \
+                                                          double);                            \
+  template long double true_gap(const Flight<B>&, const Flight<B>&, long double);
+VITREL_INSTANTIATE(GrowingEllipse)
+VITREL_INSTANTIATE(GrowingEllipsoid)
+VITREL_INSTANTIATE(TumblingEllipsoid)
 
 }  // namespace vitrel::bench

@@ -20,4 +20,9 @@ namespace vitrel::bench {
 /// ellipsoid_eta.h.
 Prediction3 eta_root(const EllipsoidCase& asked, double tolerance);
 
+/// The first root of F(t) − 1, F the function of Perram and Wertheim: a scan of the bracket in steps of
+/// `tolerance` times its length (usual 1/100), and algorithm 748 within the first step that ends with
+/// F ≤ 1. An overlap between two steps is missed.
+Prediction3 perram_wertheim_root(const EllipsoidCase& asked, double tolerance);
+
 }  // namespace vitrel::bench

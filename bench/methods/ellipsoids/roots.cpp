@@ -1,4 +1,4 @@
-#include "bench/methods/ellipsoids/eta_root.h"
+#include "bench/methods/ellipsoids/roots.h"
 
 #include "bench/methods/first_root.h"
 #include "bench/methods/opening.h"
@@ -48,6 +48,15 @@ Prediction3 eta_root(const EllipsoidCase& asked, double tolerance) {
     eta_before = eta_time;
   }
   return without_contact<3>(Outcome::none, evaluations);
+}
+
+Prediction3 perram_wertheim_root(const EllipsoidCase& asked, double tolerance) {
+  const OpeningOf<3> opening = open_search(asked);
+  if (opening.answer) return *opening.answer;
+  const auto excess = [&](double time) { return perram_wertheim_at(asked, time).value - 1; };
+  const RootSearch search = first_root(excess, opening.bracket, tolerance);
+  if (!search.time) return without_contact<3>(Outcome::none, search.evaluations);
+  return contact_at(asked, *search.time, search.evaluations);
 }
 
 }  // namespace vitrel::bench

@@ -1,14 +1,32 @@
 #pragma once
 
-#include "bench/reference/first_contact.h"
 #include "core/geometry/tumbling_ellipsoid.h"
 
 namespace vitrel::bench {
 
+enum class TruthOutcome { contact, none, undecided, overlap_at_start };
+
+template <int Dim>
+struct TrueContactOf {
+  using Outcome = TruthOutcome;
+  Outcome outcome = Outcome::none;
+  long double time = 0;
+  long double uncertainty = 0;  ///< the contact lies within `time` ± this
+  int pieces = 0;               ///< steps of the search
+  /// At the contact, or where it is undecided: the unit vector from 1 to 2 normal to the surfaces,
+  /// and the speed at which the surfaces approach along it, growth included.
+  Vec<Dim> normal = Vec<Dim>::Zero();
+  double approach_speed = 0;
+};
+using TrueContact = TrueContactOf<2>;
 using TrueEllipsoidContact = TrueContactOf<3>;
 
-/// The true first contact of two ellipsoids in free flight, growing, tumbling or neither: slow, in 80-bit arithmetic,
-/// and without a step that could pass over a short overlap. It shares no code with the engine.
+/// The true first contact of two ellipses or ellipsoids in free flight, growing, tumbling or neither: slow, in 80-bit
+/// arithmetic, and without a step that could pass over a short overlap. It shares no code with the engine.
+///
+/// An ellipse with the semi-axes a ≥ b is the section of the spheroid (a, b, a): along any n of the plane both have the
+/// same support function, and no n out of the plane separates two such spheroids by more, as their third semi-axis is the
+/// longest. They touch when the ellipses do.
 ///
 /// Disjoint at a time: if there is an axis n along which the support gap
 ///     G(n, t) = n·d − s₁h₁ − s₂h₂,   hᵢ = √(nᵀΣᵢn),   Σᵢ the shape matrix at size 1, sᵢ the size,
@@ -29,23 +47,22 @@ using TrueEllipsoidContact = TrueContactOf<3>;
 /// as |n| = 1, so that its norm is (a² − c²)/2. The times approach the first contact from below, close to
 /// it with Newton's speed. Where G has become as small as rounding, the time by which the surfaces must
 /// have crossed is tried for an overlap, and the beginning of the overlap bisected. The uncertainty is the time since the
-/// bodies were last disjoint by more than rounding.
+/// bodies were last disjoint by more than rounding: |n·d| is good to 4 ε|d|, and hᵢ to 8 ε aᵢ (core/state/exact_pair.cpp).
 ///
 /// Rounding of the attitude is counted with an estimate, TaylorTop::sensitivity, not with a proven bound. Near the
 /// separatrix of flat bodies it makes the uncertainty of a contact as large as 1e-6, far more than the time is off.
 ///
 /// `undecided`: no overlap is found there: the surfaces touch, or miss each other by the rounding. Sizes
 /// must not become negative within the horizon.
-TrueEllipsoidContact true_first_contact(const Flight<GrowingEllipsoid>& one,
-                                        const Flight<GrowingEllipsoid>& two, double horizon);
-TrueEllipsoidContact true_first_contact(const Flight<TumblingEllipsoid>& one,
-                                        const Flight<TumblingEllipsoid>& two, double horizon);
+///
+/// Instantiated for GrowingEllipse, GrowingEllipsoid and TumblingEllipsoid.
+template <class B>
+TrueContactOf<B::dimension> true_first_contact(const Flight<B>& one, const Flight<B>& two,
+                                               double horizon);
 
 /// The distance of the surfaces at `time`, or minus the depth of the overlap, by the exact check's
 /// arithmetic (core/state/exact_pair.h).
-long double true_gap(const Flight<GrowingEllipsoid>& one, const Flight<GrowingEllipsoid>& two,
-                     long double time);
-long double true_gap(const Flight<TumblingEllipsoid>& one, const Flight<TumblingEllipsoid>& two,
-                     long double time);
+template <class B>
+long double true_gap(const Flight<B>& one, const Flight<B>& two, long double time);
 
 }  // namespace vitrel::bench
