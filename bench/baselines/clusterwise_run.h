@@ -8,8 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/neighbors/pairs.h"
-#include "edmd/soft/contact_force.h"
+#include "bench/baselines/soft_pairs.h"
 
 namespace vitrel::bench {
 
@@ -51,14 +50,9 @@ class ClusterwiseRun {
   const Configuration<Dim>& state() const { return c_; }
 
  private:
-  struct Pair {
-    std::size_t i, j;  // within the cluster
-    Vec<Dim> translation;
-    ContactPair contact;
-  };
   struct Cluster {
     std::vector<std::size_t> members;
-    std::vector<Pair> pairs;
+    std::vector<SoftPair<Dim>> pairs;  // by their places within the cluster
   };
   using State = std::vector<double>;  // positions, then velocities
 
@@ -69,24 +63,14 @@ class ClusterwiseRun {
   }
 
   void find_clusters() {
-    for (std::size_t i = 0; i < c_.size(); ++i) c_.box.wrap(c_.position[i], c_.image[i]);
-    struct Near {
-      std::size_t i, j;
-      Vec<Dim> translation;
-    };
-    std::vector<Near> near;
+    const std::vector<SoftPair<Dim>> near = find_soft_pairs(c_, margin_);
     std::vector<std::size_t> root(c_.size());
     std::iota(root.begin(), root.end(), std::size_t{0});
     const auto root_of = [&](std::size_t i) {
       while (root[i] != i) i = root[i] = root[root[i]];
       return i;
     };
-    for_each_pair(c_, 1 + margin_ / largest_circumradius(c_),
-                  [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
-                    if (d.norm() > distance(i, j) + margin_) return;
-                    near.push_back({i, j, d - (c_.position[j] - c_.position[i])});
-                    root[root_of(i)] = root_of(j);
-                  });
+    for (const SoftPair<Dim>& pair : near) root[root_of(pair.i)] = root_of(pair.j);
     std::vector<Cluster> of_root(c_.size());
     std::vector<std::size_t> place(c_.size());
     for (std::size_t i = 0; i < c_.size(); ++i) {
@@ -94,10 +78,11 @@ class ClusterwiseRun {
       place[i] = cluster.members.size();
       cluster.members.push_back(i);
     }
-    for (const auto& [i, j, translation] : near)
-      of_root[root_of(i)].pairs.push_back(
-          {place[i], place[j], translation,
-           contact_pair(radius(i), c_.mass[i], radius(j), c_.mass[j])});
+    for (SoftPair<Dim> pair : near) {
+      Cluster& cluster = of_root[root_of(pair.i)];
+      pair.i = place[pair.i], pair.j = place[pair.j];
+      cluster.pairs.push_back(pair);
+    }
     std::erase_if(of_root, [](const Cluster& cluster) { return cluster.members.empty(); });
     clusters_ = std::move(of_root);
   }
@@ -146,15 +131,12 @@ class ClusterwiseRun {
       part(slope, k) = part(x, n + k);
       part(slope, n + k).setZero();
     }
-    for (const Pair& pair : cluster.pairs) {
-      const Vec<Dim> d = part(x, pair.j) + pair.translation - part(x, pair.i);
-      const double r = d.norm();
-      if (r >= pair.contact.distance) continue;
-      const double rate = -d.dot(part(x, n + pair.j) - part(x, n + pair.i)) / r;
-      const double push =
-          std::max(0.0, force_.force(pair.contact.distance - r, rate, pair.contact));
-      part(slope, n + pair.i) -= push / (r * c_.mass[cluster.members[pair.i]]) * d;
-      part(slope, n + pair.j) += push / (r * c_.mass[cluster.members[pair.j]]) * d;
+    for (const SoftPair<Dim>& pair : cluster.pairs) {
+      const Vec<Dim> force =
+          pair.force(force_, part(x, pair.j) + pair.translation - part(x, pair.i),
+                     part(x, n + pair.j) - part(x, n + pair.i));
+      part(slope, n + pair.i) -= force / c_.mass[cluster.members[pair.i]];
+      part(slope, n + pair.j) += force / c_.mass[cluster.members[pair.j]];
     }
   }
 
@@ -164,9 +146,6 @@ class ClusterwiseRun {
   static Eigen::Map<const Vec<Dim>> part(const State& x, std::size_t k) {
     return Eigen::Map<const Vec<Dim>>(x.data() + k * Dim);
   }
-  double radius(std::size_t i) const { return c_.shape[i].circumradius(); }
-  double distance(std::size_t i, std::size_t j) const { return radius(i) + radius(j); }
-
   Configuration<Dim> c_;
   Force force_;
   double tolerance_, longest_step_, margin_;

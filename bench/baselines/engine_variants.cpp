@@ -116,16 +116,10 @@ Prediction2 first_contact(const Flight<SearchedEllipse>& one, const Flight<Searc
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
 }
 
-Prediction2 first_contact(const Flight<UnlimitedEllipse>& one, const Flight<UnlimitedEllipse>& two,
-                          double horizon, double contact_gap, double screened_until,
-                          const WarmStart<Ellipse>& warm_start) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap,
-                               {screened_until, warm_start.axis});
-}
-
-Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
-                          const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
-                          double screened_until, const WarmStart<Ellipse>& warm_start) {
+template <class B>
+requires std::same_as<B, UnlimitedEllipse> || std::same_as<B, RoundListedEllipse> Prediction2
+first_contact(const Flight<B>& one, const Flight<B>& two, double horizon, double contact_gap,
+              double screened_until, const WarmStart<Ellipse>& warm_start) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap,
                                {screened_until, warm_start.axis});
 }

@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/neighbors/pairs.h"
-#include "edmd/soft/contact_force.h"
+#include "bench/baselines/soft_pairs.h"
 
 namespace vitrel::bench {
 
@@ -55,12 +54,6 @@ class ForceBasedRun {
   const Configuration<Dim>& state() const { return c_; }
 
  private:
-  struct Pair {
-    std::size_t i, j;
-    Vec<Dim> translation;
-    ContactPair contact;
-  };
-
   // A shell of this thickness around a sphere of two radii has the volume of the box per particle.
   static double skin(const Configuration<Dim>& c) {
     const double radius = largest_circumradius(c);
@@ -68,31 +61,18 @@ class ForceBasedRun {
   }
 
   void find_neighbors() {
-    for (std::size_t i = 0; i < c_.size(); ++i) c_.box.wrap(c_.position[i], c_.image[i]);
+    pairs_ = find_soft_pairs(c_, skin_);
     there_ = c_.position;
-    pairs_.clear();
-    // (R₁ + R) scale ≥ R₁ + R₂ + skin, R the largest radius
-    for_each_pair(c_, 1 + skin_ / largest_circumradius(c_),
-                  [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
-                    const double radius1 = c_.shape[i].circumradius(),
-                                 radius2 = c_.shape[j].circumradius();
-                    if (d.norm() > radius1 + radius2 + skin_) return;
-                    pairs_.push_back({i, j, d - (c_.position[j] - c_.position[i]),
-                                      contact_pair(radius1, c_.mass[i], radius2, c_.mass[j])});
-                  });
   }
 
   void accelerate() {
     std::ranges::fill(acceleration_, Vec<Dim>::Zero());
-    for (const Pair& pair : pairs_) {
-      const Vec<Dim> d = c_.position[pair.j] + pair.translation - c_.position[pair.i];
-      if (d.squaredNorm() >= pair.contact.distance * pair.contact.distance) continue;
-      const double r = d.norm();
-      const double rate = -d.dot(c_.velocity[pair.j] - c_.velocity[pair.i]) / r;
-      const double push =
-          std::max(0.0, force_.force(pair.contact.distance - r, rate, pair.contact));
-      acceleration_[pair.i] -= push / (r * c_.mass[pair.i]) * d;
-      acceleration_[pair.j] += push / (r * c_.mass[pair.j]) * d;
+    for (const SoftPair<Dim>& pair : pairs_) {
+      const Vec<Dim> force =
+          pair.force(force_, c_.position[pair.j] + pair.translation - c_.position[pair.i],
+                     c_.velocity[pair.j] - c_.velocity[pair.i]);
+      acceleration_[pair.i] -= force / c_.mass[pair.i];
+      acceleration_[pair.j] += force / c_.mass[pair.j];
     }
   }
 
@@ -100,7 +80,7 @@ class ForceBasedRun {
   Force force_;
   double skin_;
   std::vector<Vec<Dim>> acceleration_, before_, there_;
-  std::vector<Pair> pairs_;
+  std::vector<SoftPair<Dim>> pairs_;
 };
 
 }  // namespace vitrel::bench

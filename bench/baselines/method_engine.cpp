@@ -50,34 +50,12 @@ Prediction2 first_contact(const Flight<PredictedEllipse>& one, const Flight<Pred
   return answer.outcome == Outcome::not_converged ? Prediction2{} : answer;
 }
 
-class MethodEngine final : public Engine2 {
- public:
-  MethodEngine(const Method& method, const EngineOptions& options)
-      : simulation_(options, "ellipses, collisions by " + method.name) {
-    PredictedEllipse::method = &method;
-  }
-
-  void load(const Configuration2& configuration, double horizon) override {
-    simulation_.load(configuration, horizon);
-  }
-  Stop advance(double until, RunCounters& counters) override {
-    return simulation_.advance(until, counters);
-  }
-  void write(Configuration2& configuration) const override { simulation_.write(configuration); }
-  void set_velocities(const Configuration2& configuration, double horizon,
-                      RunCounters& counters) override {
-    simulation_.set_velocities(configuration, horizon, counters);
-  }
-  std::string description() const override { return simulation_.description(); }
-
- private:
-  Simulation<PredictedEllipse> simulation_;
-};
-
 }  // namespace
 
 std::unique_ptr<Engine2> make_method_engine(const Method& method, const EngineOptions& options) {
-  return std::make_unique<MethodEngine>(method, options);
+  PredictedEllipse::method = &method;
+  return std::make_unique<Simulation<PredictedEllipse>>(options,
+                                                        "ellipses, collisions by " + method.name);
 }
 
 std::vector<CollisionCase> recorded_cases(const Configuration2& start, std::size_t count) {
@@ -88,14 +66,14 @@ std::vector<CollisionCase> recorded_cases(const Configuration2& start, std::size
                            return vitrel::first_contact(asked.one, asked.two, asked.horizon,
                                                         asked.contact_gap());
                          }};
-  MethodEngine engine(recording, {});
+  const auto engine = make_method_engine(recording, {});
   Configuration2 now = start;
   RunCounters counters;
-  engine.load(now, Engine2::never);
+  engine->load(now, Engine2::never);
   while (cases.size() < count) {
-    engine.advance(std::numeric_limits<double>::max(), counters);
-    engine.write(now);
-    engine.load(now, Engine2::never);
+    engine->advance(std::numeric_limits<double>::max(), counters);
+    engine->write(now);
+    engine->load(now, Engine2::never);
   }
   return cases;
 }

@@ -34,25 +34,22 @@ std::vector<CaseClassOf<Dim>> random_classes() {
 
 Json rows_json(const std::vector<SurveyRow>& rows) {
   Json list = Json::array();
-  for (const SurveyRow& row : rows)
+  for (const SurveyRow& row : rows) {
     list.push_back({{"method", row.method},
                     {"tolerance", row.tolerance},
                     {"class", row.case_class},
                     {"aspect_ratio", row.aspect_ratio},
                     {"pairs", row.pairs},
                     {"contacts", row.contacts},
-                    {"correct", row.correct},
-                    {"early", row.early},
-                    {"late", row.late},
-                    {"missed", row.missed},
-                    {"false", row.false_contacts},
-                    {"not_converged", row.not_converged},
                     {"degenerate", row.degenerate},
                     {"ns_per_call", row.ns_per_call},
                     {"largest_error", row.largest_error},
                     {"median_error", row.median_error},
                     {"largest_gap_error", row.largest_gap_error},
                     {"largest_moot_gap", row.largest_moot_gap}});
+    for (std::size_t k = 0; k < verdict_names.size(); ++k)
+      list.back()[verdict_names[k]] = row.verdicts[k];
+  }
   return list;
 }
 

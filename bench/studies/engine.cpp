@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -13,15 +12,14 @@
 #include <vector>
 
 #include "bench/baselines/engine_variants.h"
+#include "bench/methods/collision_case.h"
 #include "bench/studies/calendar.h"
 #include "bench/studies/repeats.h"
+#include "bench/studies/study.h"
+#include "bench/surveys/best_seconds.h"
 #include "bench/surveys/engine_speed.h"
-#include "core/error.h"
-#include "edmd/brownian.h"
-#include "edmd/growth.h"
 #include "edmd/instances/instances.h"
 #include "edmd/run.h"
-#include "mc/insertion.h"
 
 namespace vitrel::bench {
 namespace {
@@ -31,7 +29,7 @@ struct Effort {
   int repeats = 5;
   double stretch = 1;  // seconds of a repeat, at least
   int disks = 4096, ellipses = 1024;
-  std::size_t spheres = 10'000, ellipsoids = 1'000;
+  int spheres = 10'000, ellipsoids = 1'000;
   int tile = 1000;  // particles
   int gas = 2000;
   std::vector<std::pair<int, int>> tilings = {{1, 1}, {5, 2}, {10, 10}, {40, 25}};
@@ -42,25 +40,13 @@ Effort effort_of(const StudyContext& context) {
                                : Effort{};
 }
 
-template <int Dim>
-using MakeEngine = std::function<std::unique_ptr<Engine<Dim>>()>;
-template <int Dim>
-using MadeEngines = std::vector<std::pair<std::string, MakeEngine<Dim>>>;
-
 /// Engines in turns from the same state, a row for each.
 template <int Dim>
 void add_rows(const Effort& effort, const Configuration<Dim>& start, const Json& about,
               const MadeEngines<Dim>& engines, Json& rows) {
-  std::vector<TimedRun<Dim>> runs;
-  for (const auto& [name, make] : engines) runs.emplace_back(make(), start);
-  std::vector<Repeats> repeats(runs.size());
-  for (int k = 0; k < effort.repeats; ++k)
-    for (std::size_t n = 0; n < runs.size(); ++n) repeats[n].add(runs[n].blocks(effort.stretch));
-  for (std::size_t n = 0; n < runs.size(); ++n) {
-    Json row = {{"method", engines[n].first}};
+  for (Json row : alternating_runs(start, engines, effort.repeats, effort.stretch)) {
     row.update(about);
     row["particles"] = start.size();
-    row.update(repeats[n].json());
     row["z"] =
         1 + row["virial_rate"].get<double>() / (Dim * static_cast<double>(start.size()));  // kT = 1
     rows.push_back(row);
@@ -68,34 +54,13 @@ void add_rows(const Effort& effort, const Configuration<Dim>& start, const Json&
 }
 
 /// A liquid that has also moved by event-driven dynamics.
-Configuration2 relaxed(const FluidScene& scene, double seconds) {
-  const Configuration2 start = fluid(scene);
+template <class Shape>
+Configuration<Shape::dimension> relaxed(const Shape& shape, int particles, double packing_fraction,
+                                        double seconds) {
+  const auto start = liquid(shape, particles, packing_fraction);
   TimedRun run(make_engine(start, {}), start);
   run.blocks(seconds);
   return run.now();
-}
-
-/// Inserted at random, grown to the packing fraction and mixed by collisions; velocities at kT = 1.
-Configuration3 liquid(const Ellipsoid& shape, std::size_t particles, double packing_fraction,
-                      double seconds) {
-  Configuration3 c;
-  c.resize(particles);
-  c.species_names = {"A"};
-  const double volume = shape.volume() / Ellipsoid{}.volume();
-  std::ranges::fill(c.shape, Ellipsoid{shape.semi_axes / std::cbrt(volume)});
-  insert_particles(c, {0.1}, 1, {});
-  GrowthOptions options;
-  options.growth_rate = 0.02;
-  options.packing_fraction = packing_fraction;
-  GrowthState state;
-  const StageReport report = grow(c, options, state, {});
-  if (report.end != StageEnd::reached)
-    throw InvariantError("no state to measure: " + report.reason);
-  TimedRun run(make_engine(c, {}), c);
-  run.blocks(seconds);
-  c = run.now();
-  draw_velocities(c, 1, Purpose::velocities, 0, Temperature::total);
-  return c;
 }
 
 template <int Dim>
@@ -103,29 +68,41 @@ MakeEngine<Dim> chosen_for(const Configuration<Dim>& start, const EngineOptions&
   return [&start, options] { return make_engine(start, options); };
 }
 
+Ellipsoid of_unit_volume(const Vec3& semi_axes) {
+  return {semi_axes / std::cbrt(semi_axes.prod())};
+}
+
+/// Round bodies also as general ones.
+template <int Dim>
+MadeEngines<Dim> engines_for(const Configuration<Dim>& start) {
+  MadeEngines<Dim> engines = {{"engine", chosen_for(start)}};
+  const auto general = [] {
+    if constexpr (Dim == 2)
+      return make_ellipse_engine({});
+    else
+      return make_ellipsoid_engine({});
+  };
+  if (start.shape[0].is_round()) engines.push_back({"as ellipses", general});
+  return engines;
+}
+
 Json measure_speed(const StudyContext& context) {
   const Effort effort = effort_of(context);
   Json rows = Json::array();
-  const auto add = [&](const char* shape, const FluidScene& scene) {
-    const Configuration2 start = relaxed(scene, effort.stretch);
-    MadeEngines<2> engines = {{"engine", chosen_for(start)}};
-    if (scene.aspect_ratio == 1)
-      engines.push_back({"as ellipses", [] { return make_ellipse_engine({}); }});
-    add_rows<2>(effort, start, {{"shape", shape}, {"packing_fraction", scene.packing_fraction}},
-                engines, rows);
+  const auto add = [&]<class Shape>(const char* name, const Shape& shape, int particles,
+                                    double packing_fraction) {
+    const auto start = relaxed(shape, particles, packing_fraction, effort.stretch);
+    add_rows<Shape::dimension>(effort, start,
+                               {{"shape", name}, {"packing_fraction", packing_fraction}},
+                               engines_for(start), rows);
   };
-  const auto add_solids = [&](const char* shape, const Vec3& semi_axes, double phi) {
-    const bool is_round = semi_axes.minCoeff() == semi_axes.maxCoeff();
-    const Configuration3 start =
-        liquid({semi_axes}, is_round ? effort.spheres : effort.ellipsoids, phi, effort.stretch);
-    MadeEngines<3> engines = {{"engine", chosen_for(start)}};
-    if (is_round) engines.push_back({"as ellipses", [] { return make_ellipsoid_engine({}); }});
-    add_rows<3>(effort, start, {{"shape", shape}, {"packing_fraction", phi}}, engines, rows);
+  for (const double phi : {0.5, 0.7}) add("disks", of_unit_area(1), effort.disks, phi);
+  for (const double phi : {0.5, 0.7}) add("κ = 2", of_unit_area(2), effort.ellipses, phi);
+  for (const double phi : {0.5, 0.7}) add("κ = 6", of_unit_area(6), effort.ellipses, phi);
+  for (const double phi : {0.3, 0.49}) add("spheres", Ellipsoid{}, effort.spheres, phi);
+  const auto add_solids = [&](const char* name, const Vec3& semi_axes, double phi) {
+    add(name, of_unit_volume(semi_axes), effort.ellipsoids, phi);
   };
-  for (const double phi : {0.5, 0.7}) add("disks", {effort.disks, 1, phi});
-  for (const double phi : {0.5, 0.7}) add("κ = 2", {effort.ellipses, 2, phi});
-  for (const double phi : {0.5, 0.7}) add("κ = 6", {effort.ellipses, 6, phi});
-  for (const double phi : {0.3, 0.49}) add_solids("spheres", {1, 1, 1}, phi);
   add_solids("spheroids 2", {2, 1, 1}, 0.5);
   add_solids("spheroids 1/2", {2, 2, 1}, 0.5);
   add_solids("1.25 : 1 : 0.8", {1.25, 1, 0.8}, 0.5);
@@ -137,7 +114,7 @@ Json measure_sizes(const StudyContext& context) {
   const Effort effort = effort_of(context);
   Json rows = Json::array();
   for (const double kappa : {1., 2.}) {
-    const Configuration2 tile = relaxed({effort.tile, kappa, 0.5}, effort.stretch);
+    const Configuration2 tile = relaxed(of_unit_area(kappa), effort.tile, 0.5, effort.stretch);
     for (const auto& [columns, vertical] : effort.tilings) {
       const Configuration2 start = tiled(tile, columns, vertical);
       const std::size_t before = allocated_bytes();
@@ -165,15 +142,9 @@ Json measure_sizes(const StudyContext& context) {
   return rows;
 }
 
-double wall_seconds_of(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 Json measure_brownian(const StudyContext& context) {
   const Effort effort = effort_of(context);
-  const Configuration2 start = relaxed({effort.tile, 6, 0.72}, effort.stretch);
+  const Configuration2 start = relaxed(of_unit_area(6), effort.tile, 0.72, effort.stretch);
   Json rows = Json::array();
   for (const double step : {0.01, 0.1})
     for (const int threads : {1, 2}) {
@@ -185,16 +156,15 @@ Json measure_brownian(const StudyContext& context) {
       RunPlan2 plan;
       const auto run_for = [&](double duration) {
         plan.end_time += duration;
-        return wall_seconds_of([&] { run(state, options, plan, {}); });
+        return seconds_of([&] { run(state, options, plan, {}); });
       };
       const double trial = 20 * step;
       const double duration =
           std::max(trial, step * std::round(effort.stretch * trial / run_for(trial) / step));
-      double best = std::numeric_limits<double>::infinity();
-      for (int k = 0; k < effort.repeats; ++k) best = std::min(best, run_for(duration) / duration);
+      const double best = best_seconds(effort.repeats, [&] { run_for(duration); });
       rows.push_back({{"method", threads == 1 ? "one thread" : "two threads"},
                       {"brownian_step", step},
-                      {"ns_per_time", 1e9 * best}});
+                      {"ns_per_time", 1e9 * best / duration}});
     }
   return rows;
 }
@@ -228,7 +198,8 @@ Json measure_devices(const StudyContext& context) {
   const Effort effort = effort_of(context);
   Json rows = Json::array();
   for (const double kappa : {2., 6.}) {
-    const Configuration2 start = relaxed({effort.ellipses, kappa, 0.7}, 0.3 * effort.stretch);
+    const Configuration2 start =
+        relaxed(of_unit_area(kappa), effort.ellipses, 0.7, 0.3 * effort.stretch);
     add_rows<2>(effort, start, {{"aspect_ratio", kappa}},
                 {{"engine", [] { return make_ellipse_engine({}); }},
                  {"growing at the rate 0", [] { return make_growing_ellipse_engine({}); }},

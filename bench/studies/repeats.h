@@ -1,7 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/surveys/engine_speed.h"
@@ -48,5 +52,27 @@ class Repeats {
  private:
   std::vector<Work> works_;
 };
+
+template <int Dim>
+using MakeEngine = std::function<std::unique_ptr<Engine<Dim>>()>;
+template <int Dim>
+using MadeEngines = std::vector<std::pair<std::string, MakeEngine<Dim>>>;
+
+/// Engines in turns from the same state, a row for each: its name as method, and its times and counts.
+template <int Dim>
+Json alternating_runs(const Configuration<Dim>& start, const MadeEngines<Dim>& engines, int repeats,
+                      double min_seconds) {
+  std::vector<TimedRun<Dim>> runs;
+  for (const auto& [name, make] : engines) runs.emplace_back(make(), start);
+  std::vector<Repeats> of(runs.size());
+  for (int k = 0; k < repeats; ++k)
+    for (std::size_t n = 0; n < runs.size(); ++n) of[n].add(runs[n].blocks(min_seconds));
+  Json rows = Json::array();
+  for (std::size_t n = 0; n < runs.size(); ++n) {
+    rows.push_back(of[n].json());
+    rows.back()["method"] = engines[n].first;
+  }
+  return rows;
+}
 
 }  // namespace vitrel::bench

@@ -5,15 +5,16 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/baselines/plain_contact.h"
 #include "bench/studies/soft_contacts.h"
+#include "bench/surveys/best_seconds.h"
 #include "core/io/json.h"
 #include "core/parallel.h"
 #include "core/random/stream.h"
@@ -33,10 +34,6 @@ struct Effort {
   int timed = 200'000;
 };
 const Effort quick{20, 500, 8, 2000};
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // --- the domain ------------------------------------------------------------------------------------------
 
@@ -196,11 +193,12 @@ Json measure_integration(const StudyContext& context) {
 
 template <class Find>
 double nanoseconds(const std::vector<ScaledImpact>& impacts, Find&& find) {
-  const auto start = std::chrono::steady_clock::now();
   double sum = 0;
-  for (const ScaledImpact& impact : impacts) sum += find(impact);
+  const double seconds = seconds_of([&] {
+    for (const ScaledImpact& impact : impacts) sum += find(impact);
+  });
   if (std::isnan(sum)) throw std::runtime_error("a coefficient is no number");
-  return 1e9 * seconds_since(start) / static_cast<double>(impacts.size());
+  return 1e9 * seconds / static_cast<double>(impacts.size());
 }
 
 /// The table, and the integration for the same impacts.
@@ -208,9 +206,11 @@ template <class Force>
 Json table_rows(const std::string& kind, const RestitutionDomain& domain, double tolerance,
                 const Effort& effort) {
   const ForceForm form = form_of<Force>();
-  const auto start = std::chrono::steady_clock::now();
-  const RestitutionTable table(form, domain, {tolerance, 0.02}, all_cores);
-  const double seconds = seconds_since(start);
+  std::optional<RestitutionTable> built;
+  const double seconds = seconds_of([&] {
+    built.emplace(form, domain, PanelOptions{tolerance, 0.02}, all_cores);
+  });
+  const RestitutionTable& table = *built;
 
   std::vector<ScaledImpact> impacts = random_impacts<Force>(domain, effort.random_points);
   const std::vector<ScaledImpact> lattice = lattice_impacts<Force>(domain, effort.cells);

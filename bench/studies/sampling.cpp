@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include "analysis/structure/structure_factor.h"
 #include "bench/studies/sampling_method.h"
 #include "bench/studies/study.h"
+#include "bench/surveys/best_seconds.h"
 #include "bench/surveys/engine_speed.h"
 #include "bench/surveys/mean.h"
 #include "core/error.h"
@@ -31,17 +31,15 @@ struct Effort {
   double seconds = 10;  ///< of each method in each state
   double motion_seconds =
       150;  ///< of motion, with which others are compared, until it has forgotten a few times
-  double mixing = 8;           ///< seconds before
-  int few = 3, passages = 30;  ///< a few, and enough of them
-  std::size_t states = 100;    ///< of each liquid, at most
-  int stretches = 40;
-  double stretch = 0.05;  ///< seconds, at least
+  double mixing = 8;               ///< seconds before
+  int few = 3, passages = 30;      ///< a few, and enough of them
+  std::size_t states = 100;        ///< of each liquid, at most
+  int stretches = 40, sweeps = 3;  ///< timed, and in each of them
   int tiles = 10;
 };
 
 Effort effort_of(const StudyContext& context) {
-  Effort effort =
-      context.options.quick ? Effort{64, 0.05, 0.05, 0.05, 1, 2, 2, 2, 0.001, 2} : Effort{};
+  Effort effort = context.options.quick ? Effort{64, 0.05, 0.05, 0.05, 1, 2, 2, 2, 1, 2} : Effort{};
   if (!context.options.quick) effort.seconds = context.options.seconds;
   return effort;
 }
@@ -49,8 +47,7 @@ Effort effort_of(const StudyContext& context) {
 template <int Dim>
 Configuration<Dim> swollen(Configuration<Dim> c, double packing_fraction) {
   SwellingState swelling;
-  if (swell(c, {packing_fraction}, 1, swelling, {}).end != StageEnd::reached)
-    throw InvariantError("no state to measure");
+  must_reach(swell(c, {packing_fraction}, 1, swelling, {}));
   return c;
 }
 
@@ -59,8 +56,7 @@ Configuration<Dim> dilute_liquid(const Species& species, int particles) {
   const double dilute = Dim == 2 ? 0.2 : 0.1;
   Configuration<Dim> c = draw_particles<Dim>({species}, static_cast<std::size_t>(particles), dilute,
                                              Vec<Dim>::Ones(), 1);
-  if (insert_particles(c, {dilute}, 1, {}).end != StageEnd::reached)
-    throw InvariantError("no state to measure");
+  must_reach(insert_particles(c, {dilute}, 1, {}));
   return c;
 }
 
@@ -413,30 +409,6 @@ Json measure_forgetting(const StudyContext& context) {
 
 // ---- threads ----------------------------------------------------------------------------------------
 
-double seconds_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// The fastest of several stretches of whole sweeps, ns per trial.
-class BestTrial {
- public:
-  void add(Sampler<2>& sampler, std::size_t particles, double min_seconds) {
-    const double start = seconds_now();
-    double seconds = 0;
-    std::uint64_t sweeps = 0;
-    do {
-      sampler.sweep();
-      ++sweeps;
-      seconds = seconds_now() - start;
-    } while (seconds < min_seconds);
-    best_ = std::min(best_, 1e9 * seconds / static_cast<double>(sweeps * particles));
-  }
-  double ns() const { return best_; }
-
- private:
-  double best_ = std::numeric_limits<double>::infinity();
-};
-
 Json measure_threads(const StudyContext& context) {
   const Effort effort = effort_of(context);
   Json rows = Json::array();
@@ -445,17 +417,23 @@ Json measure_threads(const StudyContext& context) {
         tiled(fluid({effort.particles, kappa, 0.5}), effort.tiles, effort.tiles);
     Configuration2 first = start, second = start;
     Sampler one(first, 1, {}, 1), two(second, 1, {}, 2);
-    BestTrial of_one, of_two;
+    double best_of_one = std::numeric_limits<double>::infinity(), best_of_two = best_of_one;
+    const auto seconds = [&](Sampler<2>& sampler) {
+      return seconds_of([&] {
+        for (int k = 0; k < effort.sweeps; ++k) sampler.sweep();
+      });
+    };
     for (int k = 0; k < effort.stretches; ++k) {
-      of_one.add(one, start.size(), effort.stretch);
-      of_two.add(two, start.size(), effort.stretch);
+      best_of_one = std::min(best_of_one, seconds(one));
+      best_of_two = std::min(best_of_two, seconds(two));
     }
+    const double trials = static_cast<double>(start.size()) * effort.sweeps;
     for (const auto& [method, best] :
-         {std::pair("one thread", of_one), std::pair("two threads", of_two)})
+         {std::pair("one thread", best_of_one), std::pair("two threads", best_of_two)})
       rows.push_back({{"method", method},
                       {"shape", shape},
                       {"particles", start.size()},
-                      {"ns_per_trial", best.ns()}});
+                      {"ns_per_trial", 1e9 * best / trials}});
   }
   return rows;
 }

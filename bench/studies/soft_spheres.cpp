@@ -241,20 +241,18 @@ Json measure_accuracy(const StudyContext& context) {
 Json measure_speed(const StudyContext& context) {
   const Effort effort = effort_of(context);
   const Viscoelastic force{usual_modulus, poissons_ratio};
-  const std::vector<std::pair<const char*, EngineOptions>> ways = {
-      {"hard", {}}, {"tables", tabulated(force)}, {"integration", integrated(force)}};
   Json rows = Json::array();
   for (const double packing_fraction : {1e-3, 1e-2, 1e-1, 3e-1}) {
     const Configuration3 start = gas(effort.sites, packing_fraction, effort.relaxation, 1);
-    std::vector<TimedRun<3>> runs;
-    for (const auto& [name, options] : ways) runs.emplace_back(make_engine(start, options), start);
-    std::vector<Repeats> repeats(ways.size());
-    for (int k = 0; k < effort.repeats; ++k)
-      for (std::size_t way = 0; way < ways.size(); ++way)
-        repeats[way].add(runs[way].blocks(effort.stretch));
-    for (std::size_t way = 0; way < ways.size(); ++way) {
-      Json row = {{"method", ways[way].first}, {"packing_fraction", packing_fraction}};
-      row.update(repeats[way].json());
+    const auto with = [&start](const EngineOptions& options) -> MakeEngine<3> {
+      return [&start, options] { return make_engine(start, options); };
+    };
+    for (Json row : alternating_runs<3>(start,
+                                        {{"hard", with({})},
+                                         {"tables", with(tabulated(force))},
+                                         {"integration", with(integrated(force))}},
+                                        effort.repeats, effort.stretch)) {
+      row["packing_fraction"] = packing_fraction;
       rows.push_back(row);
     }
   }

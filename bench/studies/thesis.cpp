@@ -37,22 +37,16 @@ Json row_of(const StudyContext& context, Program program, const ThesisScene& sce
   const auto per_time = [&](std::uint64_t count) {
     return static_cast<double>(count) / run.simulated_time;
   };
-  return {{"method", name_of(program)},
-          {"shape", scene.aspect_ratio == 1 ? "circles" : "ellipses"},
-          {"aspect_ratio", scene.aspect_ratio},
-          {"dynamics", dynamics_name(tau)},
-          {"particles", scene.particles},
-          {"ns_per_time", 1e9 * run.seconds / run.simulated_time},
-          {"simulated_time", run.simulated_time},
-          {"collisions", run.counters.collisions},
-          {"collisions_per_time", per_time(run.counters.collisions)},
-          {"correction_moves", run.counters.correction_moves},
-          {"corrections_per_time", per_time(run.counters.correction_moves)},
-          {"energy_drift", run.energy_drift},
-          {"samples", run.samples},
-          {"samples_with_overlap", run.samples_with_overlap},
-          {"deepest_overlap", run.deepest_overlap},
-          {"stood_still", run.stood_still}};
+  Json row = run_json(run);
+  row.update({{"method", name_of(program)},
+              {"shape", scene.aspect_ratio == 1 ? "circles" : "ellipses"},
+              {"aspect_ratio", scene.aspect_ratio},
+              {"dynamics", dynamics_name(tau)},
+              {"particles", scene.particles},
+              {"ns_per_time", 1e9 * run.seconds / run.simulated_time},
+              {"collisions_per_time", per_time(run.counters.collisions)},
+              {"corrections_per_time", per_time(run.counters.correction_moves)}});
+  return row;
 }
 
 /// Figures 4.1 to 4.4.

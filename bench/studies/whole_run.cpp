@@ -33,14 +33,8 @@ Json row_of(const Method& method, const StudyContext& context) {
                                    {context.options.duration}, context.control);
   const auto collisions = static_cast<double>(run.counters.collisions),
              moves = static_cast<double>(run.counters.correction_moves);
-  Json row = {{"method", method.name},
-              {"tolerance", method.tolerance},
-              {"simulated_time", run.simulated_time},
-              {"collisions", run.counters.collisions},
-              {"correction_moves", run.counters.correction_moves},
-              {"energy_drift", run.energy_drift},
-              {"deepest_overlap", run.deepest_overlap},
-              {"stood_still", run.stood_still}};
+  Json row = run_json(run);
+  row.update({{"method", method.name}, {"tolerance", method.tolerance}});
   if (collisions > 0)
     row.update({{"ns_per_collision", 1e9 * run.seconds / collisions},
                 {"corrections_per_1000", 1000 * moves / collisions}});

@@ -20,11 +20,6 @@
 namespace vitrel::bench {
 namespace {
 
-void must_reach(const StageReport& report) {
-  if (report.end != StageEnd::reached)
-    throw InvariantError("no state to measure: " + report.reason);
-}
-
 // A permutation of 0 … n − 1.
 std::vector<std::size_t> random_order(std::size_t n) {
   std::vector<std::size_t> order(n);
@@ -36,28 +31,43 @@ std::vector<std::size_t> random_order(std::size_t n) {
 
 }  // namespace
 
+void must_reach(const StageReport& report) {
+  if (report.end != StageEnd::reached)
+    throw InvariantError("no state to measure: " + report.reason);
+}
+
 double processor_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 Configuration2 fluid(const FluidScene& scene) {
-  constexpr double dilute = 0.2;
+  return liquid(of_unit_area(scene.aspect_ratio), scene.particles, scene.packing_fraction,
+                scene.seed);
+}
+
+template <class Shape>
+Configuration<Shape::dimension> liquid(const Shape& shape, int particles, double packing_fraction,
+                                       std::uint64_t seed) {
+  constexpr double dilute = Shape::dimension == 2 ? 0.2 : 0.1;
   constexpr int sweeps = 500, sweeps_between_tunings = 10;
-  Configuration2 c;
-  c.resize(static_cast<std::size_t>(scene.particles));
+  Configuration<Shape::dimension> c;
+  c.resize(static_cast<std::size_t>(particles));
   c.species_names = {"A"};
-  std::ranges::fill(c.shape, of_unit_area(scene.aspect_ratio));
-  must_reach(insert_particles(c, {std::min(dilute, scene.packing_fraction)}, scene.seed, {}));
+  std::ranges::fill(c.shape, shape);
+  must_reach(insert_particles(c, {std::min(dilute, packing_fraction)}, seed, {}));
   SwellingState swelling;
-  must_reach(swell(c, {scene.packing_fraction}, scene.seed, swelling, {}));
-  Sampler sampler(c, scene.seed, {.next_sweep = swelling.moves.next_sweep});
+  must_reach(swell(c, {packing_fraction}, seed, swelling, {}));
+  Sampler sampler(c, seed, {.next_sweep = swelling.moves.next_sweep});
   for (int k = 1; k <= sweeps; ++k) {
     sampler.sweep();
     if (k % sweeps_between_tunings == 0) sampler.tune();
   }
-  draw_velocities(c, scene.seed, Purpose::velocities, 0, Temperature::total);
+  draw_velocities(c, seed, Purpose::velocities, 0, Temperature::total);
   return c;
 }
+
+template Configuration2 liquid(const Ellipse&, int, double, std::uint64_t);
+template Configuration3 liquid(const Ellipsoid&, int, double, std::uint64_t);
 
 template <int Dim>
 Configuration<Dim> gas(int particles, double packing_fraction, std::uint64_t seed) {

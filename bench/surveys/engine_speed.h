@@ -5,11 +5,15 @@
 #include <vector>
 
 #include "core/state/configuration.h"
+#include "core/state/stage.h"
 #include "edmd/engine.h"
 
 /// @file
 /// How fast engines are: states to run from, and the clock.
 namespace vitrel::bench {
+
+/// Throws InvariantError if a state to measure was not reached.
+void must_reach(const StageReport& report);
 
 /// N equal particles with a b = 1 and mass 1 in a square box.
 struct FluidScene {
@@ -22,6 +26,11 @@ struct FluidScene {
 /// Inserted at random places and angles at φ = 0.2, swollen to the packing fraction, and mixed by 500
 /// sweeps of Monte Carlo; velocities at kT = 1. A liquid, not a melted crystal.
 Configuration2 fluid(const FluidScene& scene);
+
+/// The same of N ellipses or ellipsoids of mass 1, in space from φ = 0.1.
+template <class Shape>
+Configuration<Shape::dimension> liquid(const Shape& shape, int particles, double packing_fraction,
+                                       std::uint64_t seed = 1);
 
 /// N disks or spheres of radius 1, inserted at random, with velocities at kT = 1.
 template <int Dim>

@@ -8,9 +8,9 @@
 #include <mutex>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 
 #include "bench/baselines/method_engine.h"
+#include "bench/surveys/engine_speed.h"
 #include "edmd/brownian.h"
 #include "mc/insertion.h"
 #include "mc/swelling.h"
@@ -22,11 +22,6 @@ constexpr std::size_t particles = 256;
 constexpr double packing_fraction = 0.7;
 constexpr std::uint64_t collisions_before = 50 * particles / 2;  // two particles have part in each
 
-void expect_reached(const StageReport& report) {
-  if (report.end != StageEnd::reached)
-    throw std::runtime_error("recorded_classes: the state could not be prepared: " + report.reason);
-}
-
 Configuration2 prepared(double aspect_ratio, std::uint64_t seed) {
   Configuration2 c;
   c.resize(particles);
@@ -34,9 +29,9 @@ Configuration2 prepared(double aspect_ratio, std::uint64_t seed) {
   std::ranges::fill(c.shape, of_unit_area(aspect_ratio));
   const double length = std::sqrt(particles * std::numbers::pi / packing_fraction);
   c.box = PeriodicBox<2>(Vec2(length, length));
-  expect_reached(insert_particles(c, {}, seed, {}));
+  must_reach(insert_particles(c, {}, seed, {}));
   SwellingState swelling;
-  expect_reached(swell(c, {packing_fraction}, seed, swelling, {}));
+  must_reach(swell(c, {packing_fraction}, seed, swelling, {}));
   set_initial_velocities(c, seed, InitialVelocities::maxwell, Temperature::total);
   return c;
 }

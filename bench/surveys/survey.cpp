@@ -48,30 +48,6 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-void count(SurveyRow& row, Verdict verdict) {
-  ++row.pairs;
-  switch (verdict) {
-    case Verdict::correct:
-      ++row.correct;
-      break;
-    case Verdict::early:
-      ++row.early;
-      break;
-    case Verdict::late:
-      ++row.late;
-      break;
-    case Verdict::missed:
-      ++row.missed;
-      break;
-    case Verdict::false_contact:
-      ++row.false_contacts;
-      break;
-    case Verdict::not_converged:
-      ++row.not_converged;
-      break;
-  }
-}
-
 /// How much a failure tells: a contact overlooked where the surfaces cross at speed says most.
 int gravity(const Assessment& failure) {
   if (failure.verdict == Verdict::not_converged) return 0;
@@ -153,7 +129,8 @@ class Examination {
               const TrueContactOf<Dim>& truth) {
     const bool contact = truth.outcome == TrueContactOf<Dim>::Outcome::contact;
     const double gap = std::abs(assessment.gap_error);
-    count(row_, assessment.verdict);
+    ++row_.pairs;
+    ++row_.verdicts[static_cast<std::size_t>(assessment.verdict)];
     row_.degenerate += assessment.degenerate;
     row_.contacts += contact;
     const double error = std::abs(assessment.time_error) / asked.horizon;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -35,8 +36,8 @@ struct SurveyRow {
   double tolerance = 0;    ///< the method's own
   std::string case_class;  ///< its name
   double aspect_ratio = 0;
-  std::uint64_t pairs = 0;  ///< the sum of the following six
-  std::uint64_t correct = 0, early = 0, late = 0, missed = 0, false_contacts = 0, not_converged = 0;
+  std::uint64_t pairs = 0;
+  std::array<std::uint64_t, verdict_names.size()> verdicts{};  ///< how many pairs had which
   std::uint64_t degenerate = 0;
   std::uint64_t contacts = 0;  ///< pairs that truly touch within the horizon
   double ns_per_call = 0;
@@ -51,9 +52,9 @@ struct SurveyRow {
   /// far these answers are from being right.
   double largest_moot_gap = 0;
 
-  std::uint64_t wrong() const { return pairs - correct; }
+  std::uint64_t count(Verdict of) const { return verdicts[static_cast<std::size_t>(of)]; }
   /// Not one answer: the method is not made for such pairs.
-  bool applies() const { return not_converged < pairs; }
+  bool applies() const { return count(Verdict::not_converged) < pairs; }
 };
 
 /// A pair that a method failed on, for a picture.

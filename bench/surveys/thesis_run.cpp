@@ -1,12 +1,14 @@
 #include "bench/surveys/thesis_run.h"
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "bench/baselines/all_pairs.h"
 #include "bench/methods/collision_case.h"
+#include "bench/surveys/best_seconds.h"
 #include "core/contact/perram_wertheim.h"
 #include "core/state/check.h"
 #include "edmd/brownian.h"
@@ -67,15 +69,6 @@ class Driver {
   std::uint64_t steps_ = 0;
   RunCounters counters_;
 };
-
-/// How long `work` takes, in seconds.
-template <class Work>
-double seconds_of(Work work) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  work();
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void note_overlaps(const Configuration2& now, ThesisRun& result) {
   const ExactCheck<2> check = exact_check(now);
@@ -155,15 +148,19 @@ Configuration2 equilibrated(const ThesisScene& scene, double duration) {
 }
 
 const char* name_of(Program program) {
-  switch (program) {
-    case Program::ours:
-      return "vitrel";
-    case Program::thesis:
-      return "thesis";
-    case Program::improved:
-      return "improved";
-  }
-  return "";
+  constexpr std::array names{"vitrel", "thesis", "improved"};
+  return names[static_cast<std::size_t>(program)];
+}
+
+Json run_json(const ThesisRun& run) {
+  return {{"simulated_time", run.simulated_time},
+          {"collisions", run.counters.collisions},
+          {"correction_moves", run.counters.correction_moves},
+          {"energy_drift", run.energy_drift},
+          {"samples", run.samples},
+          {"samples_with_overlap", run.samples_with_overlap},
+          {"deepest_overlap", run.deepest_overlap},
+          {"stood_still", run.stood_still}};
 }
 
 std::unique_ptr<Engine2> make_program(Program program, const Configuration2& start) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/json.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 #include "edmd/engine.h"
@@ -55,6 +56,9 @@ struct ThesisRun {
   double energy_drift = 0;                 ///< largest |E − E₀|/E₀ of a Newtonian run
   bool stood_still = false;                ///< events without end at one time
 };
+
+/// What a row of a study says of it.
+Json run_json(const ThesisRun& run);
 
 std::unique_ptr<Engine2> make_program(Program program, const Configuration2& start);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "bench/methods/collision_case.h"
 #include "bench/surveys/true_contact.h"
 #include "core/contact/first_contact.h"
@@ -35,6 +37,10 @@ enum class Verdict {
   false_contact,  ///< contact reported where there is none and the true gap exceeds the tolerance
   not_converged,
 };
+
+/// As the studies call them.
+inline constexpr std::array<const char*, 6> verdict_names{"correct", "early", "late",
+                                                          "missed",  "false", "not_converged"};
 
 struct Assessment {
   Verdict verdict = Verdict::correct;
