@@ -24,7 +24,7 @@ version = release = re.search(r"project\(vitrel VERSION ([0-9.]+)", (ROOT / "CMa
 
 extensions = ["myst_parser", "numpydoc", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "sphinx_copybutton"]
 root_doc = "docs/index"
-include_patterns = ["docs/**", "bench/*.md", "README.md", "*/README.md", "CONTRIBUTING.md"]
+include_patterns = ["docs/**", "README.md", "*/README.md", "CONTRIBUTING.md"]
 exclude_patterns = ["build*", "out", ".*", "docs/data", "**/CMakeFiles"]
 
 myst_enable_extensions = ["dollarmath"]

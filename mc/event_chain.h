@@ -14,7 +14,7 @@ namespace vitrel {
 
 struct FreePath;
 
-/// Targets for the tuning of event chains, whose defaults come from bench/event_chain.md, and exchanges of places.
+/// Targets for the tuning of event chains, whose defaults are optimal (docs/how-it-works/monte-carlo.md), and exchanges of places.
 struct EventChainOptions {
   double contacts = 100;  ///< per chain
   double rotations = 1;   ///< trial rotations per contact; no effect if all are round
