@@ -236,8 +236,17 @@ Found search(const Pair& pair, Real horizon) {
   return {TruthOutcome::undecided, time, 0, pieces};
 }
 
-exact::Particle<3, Real> particle(const Body& body, const Vector& centre, Real time) {
-  return {centre, body.axes_at(time), body.radius_at(time), body.is_round()};
+template <int Dim>
+exact::Particle<Dim, Real> particle(const Body& body, const Vector& centre, Real time) {
+  const EllipsoidAxes<Real> axes = body.axes_at(time);
+  const Real radius = body.radius_at(time);
+  if constexpr (Dim == 2)
+    return {centre.head<2>(),
+            {axes.lengths[0], axes.lengths[1], axes.directions(0, 0), axes.directions(1, 0)},
+            radius,
+            body.is_round()};
+  else
+    return {centre, axes, radius, body.is_round()};
 }
 
 }  // namespace
@@ -260,7 +269,9 @@ template <class B>
 long double true_gap(const Flight<B>& one, const Flight<B>& two, long double time) {
   const Pair pair(one, two, time);
   const Vector d = pair.d(time);
-  return exact::examine(particle(pair.one, Vector::Zero(), time), particle(pair.two, d, time), d,
+  constexpr int dim = B::dimension;
+  return exact::examine(particle<dim>(pair.one, Vector::Zero(), time),
+                        particle<dim>(pair.two, d, time), d.head<dim>(),
                         std::numeric_limits<Real>::infinity())
       .gap;
 }
