@@ -248,10 +248,12 @@ CollisionCaseOf<Dim> aspect_ratios(Stream& draw, double largest) {
   const auto ratio = [&] { return log_uniform(draw, 1, largest); };
   if constexpr (Dim == 2) {
     const double kappa1 = ratio(), kappa2 = ratio();
-    return close_pair(draw, pair_of(draw, of_unit_area(kappa1), of_unit_area(kappa2)));
+    const CollisionCase pair = pair_of(draw, of_unit_area(kappa1), of_unit_area(kappa2));
+    return close_pair(draw, pair);
   } else {
     const Moving<3> one = any_body<3>(draw, ratio());
-    return close_pair<3>(draw, {one, any_body<3>(draw, ratio()), usual_horizon});
+    const Moving<3> two = any_body<3>(draw, ratio());
+    return close_pair<3>(draw, {one, two, usual_horizon});
   }
 }
 
@@ -305,7 +307,8 @@ CollisionCase slow(Stream& draw, double kappa) {
 
 CollisionCase round_pair(Stream& draw, double excess) {
   const double b1 = log_uniform(draw, 0.5, 2), b2 = log_uniform(draw, 0.5, 2);
-  return close_pair(draw, pair_of(draw, {b1 * (1 + excess), b1}, {b2 * (1 + excess), b2}));
+  const CollisionCase pair = pair_of(draw, {b1 * (1 + excess), b1}, {b2 * (1 + excess), b2});
+  return close_pair(draw, pair);
 }
 /// Aspect ratios 1 + 1e-12.
 CollisionCase nearly_circular(Stream& draw, double /*kappa*/) {
