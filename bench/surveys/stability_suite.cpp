@@ -176,7 +176,8 @@ void happen_at(EllipsoidCase& pair, double time) {
 /// Random close pairs with thermal velocities.
 template <int Dim>
 CollisionCaseOf<Dim> generic(Stream& draw, double kappa) {
-  return close_pair(draw, thermal_pair<Dim>(draw, kappa));
+  const CollisionCaseOf<Dim> pair = thermal_pair<Dim>(draw, kappa);
+  return close_pair(draw, pair);
 }
 
 /// The minimum gap within the horizon is between ±1e-12 and ±1e-3 shortest semi-axes; if it is negative, there are two
