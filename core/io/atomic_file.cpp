@@ -90,14 +90,15 @@ void remove_unfinished_files() noexcept {
     if (const char* file = name.load()) static_cast<void>(::unlink(file));
 }
 
-AtomicFile::AtomicFile(fs::path path) : path_(target_of(path)), partial_(make_partial_file(path_)) {
+AtomicFile::AtomicFile(fs::path path, fs::path (*make_partial)(const fs::path&))
+    : path_(target_of(path)), partial_(make_partial(path_)) {
   exchange_unfinished(nullptr, partial_.c_str());
 }
 
 AtomicFile::~AtomicFile() {
   if (partial_.empty()) return;
   std::error_code ignored;
-  fs::remove(partial_, ignored);
+  fs::remove_all(partial_, ignored);
   exchange_unfinished(partial_.c_str(), nullptr);
 }
 

@@ -15,11 +15,14 @@ std::filesystem::path make_partial_folder(const std::filesystem::path& path);
 /// Deletes the files that are not finished yet, before the process ends at once. Safe in a signal handler.
 void remove_unfinished_files() noexcept;
 
-/// A file that is replaced atomically: it is written as `partial()`, and `commit` renames it. Without a commit the
-/// destructor removes the partial file. If `path` is a link, the file that it leads to is replaced.
+/// A file that is replaced atomically, or a new folder: it is written as `partial()`, and `commit` renames it. Without
+/// a commit the destructor removes what is partial. If `path` is a link, the file that it leads to is replaced.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);
+  /// `make_partial` is one of both above.
+  explicit AtomicFile(
+      std::filesystem::path path,
+      std::filesystem::path (*make_partial)(const std::filesystem::path&) = make_partial_file);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

@@ -36,4 +36,10 @@ void OutputFile::check() {
     throw FileError(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
 }
 
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  file.close();
+}
+
 }  // namespace vitrel

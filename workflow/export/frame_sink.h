@@ -51,4 +51,7 @@ class OutputFile {
   std::uint64_t size_ = 0;
 };
 
+/// A file of one text. Throws FileError.
+void write_file(const std::filesystem::path& path, std::string_view text);
+
 }  // namespace vitrel

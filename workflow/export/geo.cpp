@@ -220,21 +220,19 @@ void write_geo(const std::filesystem::path& path, const Packing& packing) {
   const Packing cut = moved(packing.configuration, translation);
   const Configuration3& configuration = cut.configuration;
   const std::vector<Slices> particles = slices_of(cut);
-  OutputFile file(path);
-  file.write(head(configuration, translation));
-  file.write(macros);
+  std::string script = head(configuration, translation) + macros;
   for (std::size_t k = 0; k < configuration.species_names.size(); ++k) {
-    file.write("\ninclusions() = {};\n");
+    script += "\ninclusions() = {};\n";
     for (const Slices& slices : particles)
       if (configuration.species[slices.begin->particle] == static_cast<std::int32_t>(k))
-        file.write(particle(cut, slices));
-    file.write(fmt::format("inclusions_{}() = inclusions();\n", k));
+        script += particle(cut, slices);
+    script += fmt::format("inclusions_{}() = inclusions();\n", k);
   }
-  file.write(assembly);
+  script += assembly;
   for (std::size_t k = 0; k < configuration.species_names.size(); ++k)
-    file.write(fmt::format("Physical Volume({}) = inclusions_{}();\n",
-                           quoted("inclusions " + configuration.species_names[k]), k));
-  file.close();
+    script += fmt::format("Physical Volume({}) = inclusions_{}();\n",
+                          quoted("inclusions " + configuration.species_names[k]), k);
+  write_file(path, script);
 }
 
 }  // namespace vitrel

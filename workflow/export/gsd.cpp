@@ -4,17 +4,122 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
 
+#include "core/io/foreign/gsd_layout.h"
 #include "core/io/provenance.h"
 #include "core/state/in_space.h"
 
 namespace vitrel {
 namespace {
 
-constexpr std::uint32_t hoomd_schema = (1u << 16) + 4;
+template <class T>
+std::string_view bytes_of(std::span<const T> values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
+}
+
+template <class T>
+constexpr std::uint8_t type_number() {
+  if constexpr (std::is_same_v<T, std::uint8_t>) return 1;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return 3;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return 4;
+  if constexpr (std::is_same_v<T, std::int8_t>) return 5;
+  if constexpr (std::is_same_v<T, std::int32_t>) return 7;
+  if constexpr (std::is_same_v<T, float>) return 9;
+  if constexpr (std::is_same_v<T, double>) return 10;
+}
+
+/// Writes a file of GSD, the general simulation data of HOOMD-blue, file layer 2.0
+/// (https://gsd.readthedocs.io/en/stable/file-layer.html): frames of named arrays, "chunks".
+///
+///     header    256 bytes: what the file is, and where the two blocks below lie
+///     chunks    the bare numbers, row by row, one after the other
+///     names     of the chunks, each ended by a zero byte, in units of 64 bytes
+///     index     32 bytes per chunk, by frame and then by name: place, shape and type
+///
+/// Names and index come last, so that nothing needs to be known beforehand; memory grows by an
+/// index entry per chunk.
+class GsdFile {
+ public:
+  explicit GsdFile(const std::filesystem::path& path);
+
+  /// Adds an array of `columns` numbers per row to the frame. Every frame writes its names in the same order, each at
+  /// most once; some may be left out.
+  template <class T>
+  void write(const std::string& name, std::span<const T> values, std::uint32_t columns = 1);
+  void end_frame() { ++frame_; }
+  void close();
+
+ private:
+  std::uint16_t number_of(const std::string& name);
+  void write_names();
+  void write_index();
+
+  OutputFile file_;
+  gsd::Header header_{};
+  std::vector<std::string> names_;
+  std::vector<gsd::Entry> index_;
+  std::uint64_t frame_ = 0;
+};
+
+GsdFile::GsdFile(const std::filesystem::path& path) : file_(path) {
+  header_.magic = gsd::magic;
+  header_.version = 2u << 16;  // versions are major · 2¹⁶ + minor
+  header_.schema_version = (1u << 16) + 4;
+  ("vitrel " + program_version()).copy(header_.application.data(), header_.application.size() - 1);
+  std::string_view("hoomd").copy(header_.schema.data(), header_.schema.size() - 1);
+  file_.write(bytes_of(std::span<const gsd::Header>(&header_, 1)));  // its place; the rest by close
+}
+
+template <class T>
+void GsdFile::write(const std::string& name, std::span<const T> values, std::uint32_t columns) {
+  const std::uint16_t number = number_of(name);
+  assert(index_.empty() || index_.back().frame < frame_ || index_.back().name < number);
+  index_.push_back({frame_, values.size() / columns, static_cast<std::int64_t>(file_.size()),
+                    columns, number, type_number<T>(), 0});
+  file_.write(bytes_of(values));
+}
+
+std::uint16_t GsdFile::number_of(const std::string& name) {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  const auto number = static_cast<std::uint16_t>(found - names_.begin());
+  if (found == names_.end()) names_.push_back(name);
+  return number;
+}
+
+void GsdFile::write_names() {
+  std::string block;
+  for (const std::string& name : names_) block += name + '\0';
+  // One zero byte more ends the list.
+  header_.names_units = block.size() / gsd::names_unit + 1;
+  header_.names_location = file_.size();
+  block.resize(header_.names_units * gsd::names_unit);
+  file_.write(block);
+}
+
+void GsdFile::write_index() {
+  index_.push_back({});  // ends the list
+  header_.index_entries = index_.size();
+  header_.index_location = file_.size();
+  file_.write(bytes_of(std::span<const gsd::Entry>(index_)));
+}
+
+void GsdFile::close() {
+  write_names();
+  write_index();
+  file_.write_at_start(bytes_of(std::span<const gsd::Header>(&header_, 1)));
+  file_.close();
+}
+
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 float rounded_up(double x) {
@@ -93,11 +198,25 @@ std::vector<CommonShape> shapes_of_species(const Configuration<Dim>& configurati
   return shapes;
 }
 
-}  // namespace
-
 template <int Dim>
-GsdSink<Dim>::GsdSink(const std::filesystem::path& path, StoredMotion motion)
-    : file_(path, "vitrel " + program_version(), "hoomd", hoomd_schema), motion_(motion) {}
+class GsdSink final : public FrameSink<Dim> {
+ public:
+  GsdSink(const std::filesystem::path& path, StoredMotion motion) : file_(path), motion_(motion) {}
+  void write(const StoredFrame<Dim>& frame) override;
+  void close() override { file_.close(); }
+
+ private:
+  void write_fixed(const Configuration<Dim>& configuration);
+  void write_types(const Configuration<Dim>& configuration);
+  void write_own_shapes(const Configuration<Dim>& configuration,
+                        const std::vector<CommonShape>& common);
+  void write_texts(const std::string& name, const std::vector<std::string>& texts);
+  void write_motion(const Configuration<Dim>& configuration);
+
+  GsdFile file_;
+  StoredMotion motion_;
+  bool has_fixed_ = false;
+};
 
 template <int Dim>
 void GsdSink<Dim>::write(const StoredFrame<Dim>& frame) {
@@ -199,7 +318,14 @@ void GsdSink<Dim>::write_motion(const Configuration<Dim>& configuration) {
   if (motion_.angular_velocities) file_.write<float>("particles/angmom", momenta, 4);
 }
 
-template class GsdSink<2>;
-template class GsdSink<3>;
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<FrameSink<Dim>> gsd_sink(const std::filesystem::path& path, StoredMotion motion) {
+  return std::make_unique<GsdSink<Dim>>(path, motion);
+}
+
+template std::unique_ptr<FrameSink<2>> gsd_sink(const std::filesystem::path&, StoredMotion);
+template std::unique_ptr<FrameSink<3>> gsd_sink(const std::filesystem::path&, StoredMotion);
 
 }  // namespace vitrel

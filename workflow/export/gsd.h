@@ -1,12 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
+#include <memory>
 
 #include "workflow/export/frame_sink.h"
-#include "workflow/export/gsd_file.h"
 
 namespace vitrel {
 
@@ -32,23 +29,6 @@ namespace vitrel {
 ///
 /// The edges of the box are rounded up, and so no position is rounded out of it.
 template <int Dim>
-class GsdSink final : public FrameSink<Dim> {
- public:
-  GsdSink(const std::filesystem::path& path, StoredMotion motion);
-  void write(const StoredFrame<Dim>& frame) override;
-  void close() override { file_.close(); }
-
- private:
-  void write_fixed(const Configuration<Dim>& configuration);
-  void write_types(const Configuration<Dim>& configuration);
-  void write_own_shapes(const Configuration<Dim>& configuration,
-                        const std::vector<std::optional<Vec3>>& common);
-  void write_texts(const std::string& name, const std::vector<std::string>& texts);
-  void write_motion(const Configuration<Dim>& configuration);
-
-  GsdFile file_;
-  StoredMotion motion_;
-  bool has_fixed_ = false;
-};
+std::unique_ptr<FrameSink<Dim>> gsd_sink(const std::filesystem::path& path, StoredMotion motion);
 
 }  // namespace vitrel

@@ -4,19 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include "core/error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/h5md.h"
-#include "workflow/export/csv.h"
 #include "workflow/export/frame_range.h"
 #include "workflow/export/gsd.h"
 #include "workflow/export/packing.h"
-#include "workflow/export/pending_folder.h"
-#include "workflow/export/xytheta.h"
-#include "workflow/export/xyz.h"
+#include "workflow/export/text_formats.h"
 
 namespace vitrel {
 namespace {
@@ -87,21 +83,14 @@ std::optional<ExportedTrajectory> copy_frames(const TrajectoryReader& reader, co
 }
 
 template <int Dim>
-std::unique_ptr<FrameSink<Dim>> file_sink(const std::string& format, const fs::path& path,
-                                          StoredMotion motion) {
-  if constexpr (Dim == 2)
-    if (format == "xytheta") return std::make_unique<XyThetaSink>(path);
-  if (format == "gsd") return std::make_unique<GsdSink<Dim>>(path, motion);
-  if (format == "xyz") return std::make_unique<XyzSink<Dim>>(path, motion);
-  return std::make_unique<CsvSink<Dim>>(path, motion);
-}
-
-template <int Dim>
 std::optional<ExportedTrajectory> export_file(const TrajectoryReader& reader, const Frames& chosen,
                                               const ExportRequest& request,
                                               const RunControl& control) {
   AtomicFile pending(request.output);
-  const auto sink = file_sink<Dim>(request.format, pending.partial(), stored_motion(reader));
+  const StoredMotion motion = stored_motion(reader);
+  const auto sink = request.format == "gsd"
+                        ? gsd_sink<Dim>(pending.partial(), motion)
+                        : text_sink<Dim>(request.format, pending.partial(), motion);
   std::optional<ExportedTrajectory> done = copy_frames(reader, chosen, *sink, control);
   if (!done) return done;
   done->bytes = fs::file_size(pending.partial());
@@ -136,7 +125,7 @@ std::optional<ExportedTrajectory> export_series(const TrajectoryReader& reader,
         "{}: {} frames make a folder of .vtp files, which should not be named like one of them; "
         "--frames -1 writes the last frame as a file",
         request.output.string(), chosen.size()));
-  PendingFolder pending(request.output);
+  AtomicFile pending(request.output, make_partial_folder);
   VtpSeries series(pending.partial(), request.input.stem().string(), request.shrink.value_or(1),
                    stored_motion(reader));
   std::optional<ExportedTrajectory> done = copy_frames(reader, chosen, series, control);

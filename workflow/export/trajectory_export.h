@@ -13,8 +13,8 @@ namespace vitrel {
 
 /// Trajectories and states are exported as
 ///
-///     gsd, xyz, csv      the particles of every frame: gsd.h, xyz.h, csv.h
-///     xytheta            in the plane, the same: xytheta.h
+///     gsd, xyz, csv      the particles of every frame: gsd.h, text_formats.h
+///     xytheta            in the plane, the same: text_formats.h
 ///     geo, vti, vtp      in space: one period with all images that meet the box, and so csv with
 ///                        `images` (packing.h). Of several frames vtp makes a folder, a ParaView
 ///                        series; the others take one frame

@@ -49,12 +49,6 @@ void append(std::vector<T>& row, const auto& vector) {
   row.insert(row.end(), vector.data(), vector.data() + vector.size());
 }
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.close();
-}
-
 /// A grid over the box.
 struct Grid {
   Eigen::Array<std::int64_t, 3, 1> count;
