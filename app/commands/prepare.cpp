@@ -10,7 +10,6 @@
 #include "app/terminal/text_lines.h"
 #include "core/io/h5md.h"
 #include "core/io/json.h"
-#include "workflow/prepare/packing_quality.h"
 #include "workflow/prepare/preparation_plan.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality.h"

@@ -13,7 +13,6 @@
 #include "core/io/json.h"
 #include "tests/support/scenes.h"
 #include "workflow/analyze/analyze.h"
-#include "workflow/prepare/packing_quality.h"
 #include "workflow/prepare/quality.h"
 #include "workflow/report/run_report.h"
 

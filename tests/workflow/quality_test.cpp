@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -12,7 +13,6 @@
 #include "core/io/text_file.h"
 #include "core/special_values.h"
 #include "tests/app/program.h"
-#include "workflow/prepare/packing_quality.h"
 
 namespace vitrel {
 namespace {
@@ -168,13 +168,12 @@ TEST(MeasureQuality, OfAPackingInSpaceCountsContactsIfItIsJammed) {
 // 94 disks that are held need 2 · 93 + 1 contacts.
 TEST(StateQuality, TooFewContactsAreNamed) {
   const auto remark = [](std::size_t contacts, std::size_t rotors) {
-    StateQuality quality{};
+    Quality quality;
     quality.particles = 100;
     quality.rotors = rotors;
     quality.backbone = JammedBackbone{{6, contacts, 3.9, 4}, 1e-4};
-    std::vector<QualityRow> rows;
-    add_backbone_rows(rows, quality);
-    return rows[0].remark;
+    const std::vector<QualityRow> rows = quality_rows(quality);
+    return std::ranges::find(rows, "contacts per particle", &QualityRow::name)->remark;
   };
   EXPECT_NE(remark(184, 0).find("not rigid: there are 184 contacts, but at least 187"),
             std::string::npos);

@@ -3,14 +3,124 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "core/io/text_file.h"
+#include "core/io/number_text.h"
 #include "core/special_values.h"
 
 namespace vitrel {
 namespace {
+
+using From = StateQuality::PressureFrom;
+
+QualityRow decay_row(const std::string& name, const std::optional<std::uint64_t>& sweeps,
+                     std::uint64_t measured, const std::string& remark) {
+  return {
+      name,
+      sweeps ? fmt::format("{} sweeps", *sweeps) : fmt::format("longer than {} sweeps", measured),
+      remark};
+}
+
+/// `grown` is 0 if the last stage was no growth, or too short a one to measure the pressure.
+void note_pressure(StateQuality& quality, double grown) {
+  if (quality.decorrelation && grown < min_jammed_pressure) {
+    quality.pressure_from = From::sampling;
+    quality.reduced_pressure = slow_average(quality.decorrelation->compressibility);
+    const double bias = quality.decorrelation->compressibility_bias;
+    double& error = quality.reduced_pressure.error;
+    error = std::sqrt(error * error + bias * bias);
+  } else if (grown > 0) {
+    quality.pressure_from = From::growth;
+    quality.reduced_pressure = {grown, unknown, 0};
+  } else {
+    quality.reduced_pressure = {unknown, unknown, 0};
+  }
+}
+
+std::string pressure_remark(const StateQuality& quality) {
+  if (quality.pressure_from == From::growth) return "at the end of the growth";
+  if (quality.pressure_from == From::nothing) return "not measured";
+  return std::isfinite(quality.reduced_pressure.error)
+             ? "Monte Carlo sampling"
+             : "Monte Carlo sampling, too short for an error";
+}
+
+/// False if the run control asked to stop.
+template <int Dim>
+bool measure_state(StateQuality& quality, const Preparation<Dim>& preparation,
+                   const Parameters& parameters, const RunControl& control, int threads) {
+  const Configuration<Dim>& state = preparation.configuration;
+  if (parameters.quality_sweeps > 0) {
+    quality.decorrelation =
+        measure_decorrelation(state, parameters.quality_sweeps, parameters.system.seed,
+                              preparation.next_sweep, control, threads);
+    if (!quality.decorrelation) return false;
+  }
+  quality.particles = state.size();
+  quality.rotors = rotor_count(state);
+  quality.packing_fraction = packing_fraction(state);
+  note_pressure(quality, preparation.stages.back().growth.reduced_pressure);
+  quality.overlaps = preparation.check.overlaps.size();
+  quality.smallest_gap = preparation.check.smallest_gap;
+  if (const double pressure = quality.reduced_pressure.mean; pressure >= min_jammed_pressure)
+    quality.backbone = jammed_backbone(state, pressure);
+  return true;
+}
+
+QualityRow packing_fraction_row(const StateQuality& quality) {
+  return {"packing fraction φ", fmt::format("{:.6g}", quality.packing_fraction), ""};
+}
+
+QualityRow pressure_row(const StateQuality& quality) {
+  return {"reduced pressure βP/ρ",
+          with_error(quality.reduced_pressure.mean, quality.reduced_pressure.error),
+          pressure_remark(quality)};
+}
+
+QualityRow gap_row(const StateQuality& quality) {
+  return {"smallest gap",
+          std::isfinite(quality.smallest_gap) ? fmt::format("{:.3g}", quality.smallest_gap)
+                                              : "beyond the longest semi-axis",
+          fmt::format("exact check: {} overlaps", quality.overlaps)};
+}
+
+/// Disks and spheres are rigid only with as many contacts as they have degrees of freedom, less those of the whole, and one
+/// more against the pressure: D (N' − 1) + 1 between the N' that are held.
+std::string rigidity_remark(const StateQuality& quality, const JammedBackbone& backbone) {
+  const std::size_t held = quality.particles - backbone.rattlers;
+  if (quality.rotors > 0 || held == 0) return "";
+  const auto dimension = static_cast<std::size_t>(backbone.isostatic_number / 2);
+  const std::size_t least = dimension * (held - 1) + 1;
+  if (backbone.contacts >= least) return "";
+  return fmt::format(
+      "; not rigid: there are {} contacts, but at least {} are needed; grow more slowly",
+      backbone.contacts, least);
+}
+
+void add_backbone_rows(std::vector<QualityRow>& rows, const StateQuality& quality) {
+  if (!quality.backbone) return;
+  const JammedBackbone& backbone = *quality.backbone;
+  const bool jammed = std::isfinite(backbone.contact_number);
+  rows.push_back({"contacts per particle",
+                  jammed ? fmt::format("{:.3f}", backbone.contact_number) : "–",
+                  jammed ? fmt::format("without rattlers; isostatic: {:.3g}; gaps below {:.2g}",
+                                       backbone.isostatic_number, backbone.tolerance) +
+                               rigidity_remark(quality, backbone)
+                         : "not jammed"});
+  rows.push_back({"rattlers", fmt::format("{} of {}", backbone.rattlers, quality.particles),
+                  "particles that their contacts do not hold"});
+}
+
+void add_time_rows(std::vector<QualityRow>& rows, const StateQuality& quality,
+                   const std::string& correlation) {
+  if (!quality.decorrelation) return;
+  const Decorrelation& decorrelation = *quality.decorrelation;
+  if (quality.rotors > 0)
+    rows.push_back(decay_row("orientation time", decorrelation.orientation_time,
+                             decorrelation.measured, fmt::format("until {} < 1/e", correlation)));
+  rows.push_back(decay_row("displacement time", decorrelation.displacement_time,
+                           decorrelation.measured,
+                           "until the particles have moved by their width"));
+}
 
 /// Of the nematic correlation, in units of √⟨ab⟩.
 constexpr double bin_width = 0.25;
@@ -36,42 +146,32 @@ void add_nematic_rows(std::vector<QualityRow>& rows, const Quality& quality) {
                   std::isfinite(length) ? "g₂(r) stays below 1/e beyond" : "half the box"});
 }
 
-Json correlation_json(const NematicCorrelation& g) {
-  if (g.distance.empty()) return nullptr;
-  const double length = correlation_length(g);
-  const bool reached = std::isfinite(length);
-  return {
-      {"length", limit_json(reached, reached ? length : g.distance.front() + g.distance.back())},
-      {"distance", g.distance},
-      {"value", g.value},
-      {"pairs", g.pairs}};
+std::string components(const Mat3& tensor) {
+  // Zero without the sign of a rounding error.
+  const Mat3 t = (1000 * tensor).array().round() / 1000 + 0.0;
+  return fmt::format("{:.3f}, {:.3f}, {:.3f}; {:.3f}, {:.3f}, {:.3f}", t(0, 0), t(1, 1), t(2, 2),
+                     t(1, 2), t(0, 2), t(0, 1));
 }
 
-NematicCorrelation correlation_from(const Json& json) {
-  if (json.is_null()) return {};
-  NematicCorrelation g{json.at("distance"), {}, json.at("pairs")};
-  for (const Json& value : json.at("value")) g.value.push_back(number_or(value, unknown));
-  return g;
+QualityRow tensor_row(const PackingQuality& quality) {
+  const auto& first = quality.first_orientation_tensor;
+  return {"orientation tensor ⟨w wᵀ⟩", components(quality.orientation_tensor),
+          first ? fmt::format("xx, yy, zz; yz, xz, xy; at the start {}", components(*first))
+                : "xx, yy, zz; yz, xz, xy"};
 }
 
-Quality quality_from(const Json& json) {
-  Quality quality;
-  quality.particles = json.at("particles");
-  quality.rotors = json.at("rotors");
-  quality.packing_fraction = json.at("packing_fraction");
-  const Json& pressure = json.at("reduced_pressure");
-  quality.pressure_from = pressure_source(pressure.at("from"));
-  quality.reduced_pressure = {number_or(pressure.at("value"), unknown),
-                              number_or(pressure.at("error"), unknown), 0};
-  quality.nematic_order = json.at("nematic_order");
-  quality.nematic_correlation = correlation_from(json.at("nematic_correlation"));
-  quality.hexatic_order = {json.at("hexatic_order").at("global"),
-                           json.at("hexatic_order").at("local")};
-  quality.overlaps = json.at("overlaps");
-  quality.smallest_gap = number_or(json.at("smallest_gap"), infinity);
-  quality.backbone = backbone_from(json.at("jamming"));
-  quality.decorrelation = decorrelation_from(json.at("time_correlation"));
-  return quality;
+QualityRow orientation_row(const PackingQuality& quality) {
+  const IsotropicRatio chance = isotropic_ratio(quality.rotors);
+  return {"orientation ratio ρ", fmt::format("{:.4f}", quality.orientation_ratio),
+          fmt::format("λ_max/λ_min; isotropic: {:.4f} ± {:.4f}", chance.mean,
+                      chance.standard_deviation)};
+}
+
+void measure_structure(PackingQuality& quality, const Configuration3& packing) {
+  const OrientationTensor tensor = orientation_tensor(packing);
+  quality.orientation_tensor = tensor.matrix;
+  quality.orientation_ratio = tensor.ratio();
+  quality.two_point = TwoPointGrid(packing).measure(packing);
 }
 
 }  // namespace
@@ -102,52 +202,51 @@ std::vector<QualityRow> quality_rows(const Quality& quality) {
   return rows;
 }
 
-std::filesystem::path quality_file(const std::filesystem::path& state) {
-  return std::filesystem::path(state).replace_extension("quality.json");
-}
-
-Json quality_json(const Quality& quality) {
-  const Estimate& pressure = quality.reduced_pressure;
-  return {{"particles", quality.particles},
-          {"rotors", quality.rotors},
-          {"packing_fraction", quality.packing_fraction},
-          {"reduced_pressure",
-           {{"value", pressure.mean},
-            {"error", pressure.error},
-            {"from", name_of(quality.pressure_from)}}},
-          {"nematic_order", quality.nematic_order},
-          {"nematic_correlation", correlation_json(quality.nematic_correlation)},
-          {"hexatic_order",
-           {{"global", quality.hexatic_order.global}, {"local", quality.hexatic_order.local}}},
-          {"overlaps", quality.overlaps},
-          {"smallest_gap", quality.smallest_gap},
-          {"jamming", backbone_json(quality.backbone)},
-          {"time_correlation", decorrelation_json(quality.decorrelation)}};
-}
-
-void write_quality(const std::filesystem::path& file, const Quality& quality) {
-  write_text(file, json_text(quality_json(quality), 1) + "\n");
-}
-
-Quality read_quality(const std::filesystem::path& file, const Configuration2& state) {
-  if (!std::filesystem::exists(file))
-    throw FileError(
-        fmt::format("{}: is missing; vitrel prepare writes this quality report beside a state, and "
-                    "the page needs both (that of a run needs two frames or more)",
-                    file.string()));
-  Quality quality;
-  read_json_as("a quality report", file,
-               [&](const Json& report) { quality = quality_from(report); });
-  // Other versions and libraries round the last digits otherwise.
-  const auto differ = [](double one, double two) { return !(std::abs(one - two) <= 1e-12); };
-  if (quality.particles != state.size() ||
-      differ(quality.packing_fraction, packing_fraction(state)) ||
-      differ(quality.nematic_order, nematic_order(state)))
-    throw FileError(
-        fmt::format("{}: is the quality report of another state; vitrel prepare writes "
-                    "both files together",
-                    file.string()));
+PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check) {
+  PackingQuality quality;
+  quality.particles = packing.size();
+  quality.rotors = rotor_count(packing);
+  quality.packing_fraction = packing_fraction(packing);
+  quality.reduced_pressure = {unknown, unknown, 0};
+  quality.overlaps = check.overlaps.size();
+  quality.smallest_gap = check.smallest_gap;
+  measure_structure(quality, packing);
   return quality;
+}
+
+std::optional<PackingQuality> measure_quality(const Preparation<3>& preparation,
+                                              const Parameters& parameters,
+                                              const RunControl& control, int threads) {
+  PackingQuality quality;
+  if (!measure_state(quality, preparation, parameters, control, threads)) return std::nullopt;
+  measure_structure(quality, preparation.configuration);
+  if (preparation.stages.front().orientation_tensor.size() == 9)
+    quality.first_orientation_tensor = Mat3(preparation.stages.front().orientation_tensor.data());
+  for (const StageRecord& stage : preparation.stages)
+    quality.collisions += stage.growth.counters.collisions;
+  quality.wall_seconds = preparation.wall_seconds;
+  return quality;
+}
+
+std::vector<QualityRow> quality_rows(const PackingQuality& quality) {
+  std::vector<QualityRow> rows = {packing_fraction_row(quality)};
+  if (quality.pressure_from != StateQuality::PressureFrom::nothing)
+    rows.push_back(pressure_row(quality));
+  if (quality.rotors > 0) {
+    rows.push_back(tensor_row(quality));
+    rows.push_back(orientation_row(quality));
+  }
+  rows.push_back(gap_row(quality));
+  add_backbone_rows(rows, quality);
+  add_time_rows(rows, quality, "⟨P₂(w(t)·w(0))⟩");
+  if (quality.collisions > 0)
+    rows.push_back(
+        {"collisions", fmt::format("{}", quality.collisions),
+         fmt::format("{:.3g} per particle", static_cast<double>(quality.collisions) /
+                                                static_cast<double>(quality.particles))});
+  if (quality.wall_seconds > 0)
+    rows.push_back({"wall time", fmt::format("{:.4g} s", quality.wall_seconds), ""});
+  return rows;
 }
 
 }  // namespace vitrel

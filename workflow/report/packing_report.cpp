@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/io/h5md.h"
-#include "workflow/prepare/packing_quality.h"
 #include "workflow/prepare/quality.h"
 #include "workflow/report/run_report.h"
 
