@@ -9,7 +9,6 @@
 #include "mc/insertion.h"
 #include "tests/support/report_example.h"
 #include "workflow/report/impact_figures.h"
-#include "workflow/report/packing_page.h"
 #include "workflow/report/path_figures.h"
 #include "workflow/report/state_page.h"
 
@@ -23,7 +22,7 @@ StatePage state() {
   page.title = "state";
   page.rows = {{"packing fraction", "0.196", ""}};
   page.structure.tables = report_example::structure();
-  page.state = trajectory.read(0);
+  page.movie = film(trajectory);
   page.nematic_correlation = {{0.5, 1.5, 2.5}, {0.5, 0.25, 0.125}, {5, 20, 50}};
   page.nematic_order = 0.3;
   page.sweeps = {1, 2, 4};
@@ -57,8 +56,8 @@ Configuration3 one_body(double degrees = 40) {
   return c;
 }
 
-PackingPage packing(const Configuration3& bodies) {
-  PackingPage page;
+StatePage packing(const Configuration3& bodies) {
+  StatePage page;
   page.title = "packing";
   page.subtitle = "60 ellipsoids";
   page.rows = {{"packing fraction", "0.15", ""}};
@@ -67,7 +66,7 @@ PackingPage packing(const Configuration3& bodies) {
   std::vector<double> x;
   for (int k = 1; k <= 40; ++k) x.push_back(0.1 * k);
   const auto wave = [](double value) { return 1 + std::sin(9 * value) / (9 * value); };
-  page.results.tables = {
+  page.structure.tables = {
       {"pair_correlation",
        "",
        {report_example::plain("r", "length", x), report_example::column("g", "1", x, wave)}},
@@ -226,9 +225,9 @@ void write_pages(const std::filesystem::path& folder) {
   write_text(folder / "state.html", state_page(state()));
   write_text(folder / "space_run.html", report_page(space_run()));
   write_text(folder / "spheres_run.html", report_page(spheres_run()));
-  write_text(folder / "packing.html", packing_page(packing(two_species())));
-  write_text(folder / "one_body.html", packing_page(packing(one_body())));
-  write_text(folder / "overlapping.html", packing_page(packing(overlapping())));
+  write_text(folder / "packing.html", state_page(packing(two_species())));
+  write_text(folder / "one_body.html", state_page(packing(one_body())));
+  write_text(folder / "overlapping.html", state_page(packing(overlapping())));
   const Pair<2> ellipses{{{1, 0.5}, {{0, 0}, 0}, {{0, 0}, 0}},
                          {{1, 0.5}, {{1, 1}, 0}, {{-1, 0}, std::numbers::pi}},
                          std::nullopt,

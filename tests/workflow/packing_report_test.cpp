@@ -1,4 +1,4 @@
-#include "workflow/report/packing_report.h"
+#include "workflow/report/state_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -97,15 +97,15 @@ TEST_F(PackingFile, IsAnalysedAsTheCommandLineSays) {
 }
 
 TEST_F(PackingFile, HasAPage) {
-  const PackingPage page = packing_page_data(file(), {});
+  const StatePage page = packing_page_data(file(), {});
   EXPECT_EQ(page.title, "Packing of 216 ellipsoids, 2 : 1 : 1");
   EXPECT_EQ(page.subtitle, "packing, φ = 0.1");
-  EXPECT_EQ(page.movie.particles(), 216u);
-  EXPECT_EQ(page.movie.frames(), 1u);
-  EXPECT_EQ(page.movie.overlapping_pairs[0], 0u);
+  EXPECT_EQ(std::get<Movie3>(page.movie).particles(), 216u);
+  EXPECT_EQ(std::get<Movie3>(page.movie).frames(), 1u);
+  EXPECT_EQ(std::get<Movie3>(page.movie).overlapping_pairs[0], 0u);
   EXPECT_EQ(page.rows.size(), 4u);
   EXPECT_EQ(page.rows[1].value, "0.667, 0.000, 0.333; 0.000, 0.000, 0.000");
-  const std::string text = packing_page(page);
+  const std::string text = state_page(page);
   EXPECT_THAT(text, HasSubstr("<h1>Packing of 216 ellipsoids, 2 : 1 : 1</h1>"));
   EXPECT_THAT(text, HasSubstr("a b c = 1"));
   EXPECT_THAT(text, HasSubstr("id=\"two_point\""));
@@ -123,7 +123,7 @@ TEST_F(PackingFile, TakesFromTheQualityReportWhatOnlyThePreparationKnows) {
   quality.wall_seconds = 2.5;
   quality.backbone = JammedBackbone{{6, 1000, 9.52, 10}, 2e-3};
   write_quality(quality_file(file()), quality);
-  const std::string text = packing_page(packing_page_data(file(), {}));
+  const std::string text = state_page(packing_page_data(file(), {}));
   EXPECT_THAT(text, HasSubstr("<td>17.00 ± 0.50</td>"));
   EXPECT_THAT(text, HasSubstr("at the start 0.500, 0.250, 0.250; 0.000"));
   EXPECT_THAT(text, HasSubstr("<td>4321</td>"));

@@ -24,10 +24,13 @@ StatePage example(std::size_t particles) {
   page.title = "dense <1>";
   page.subtitle = "ellipses & disks";
   page.rows = {{"packing fraction", "0.7", ""}, {"pressure", "16.6 ± 0.2", "a < b"}};
-  page.state.box = PeriodicBox<2>(Vec2(100, 50));
-  page.state.resize(particles);
-  page.state.shape[0] = {2, 0.5};
-  page.state.angle[0] = 7;
+  Configuration2 state;
+  state.box = PeriodicBox<2>(Vec2(100, 50));
+  state.resize(particles);
+  state.shape[0] = {2, 0.5};
+  state.angle[0] = 7;
+  MemoryTrajectory2 trajectory({state});
+  page.movie = film(trajectory);
   page.nematic_correlation = {{0.5, 1.5, 2.5}, {NAN, 0.25, 0.125}, {0, 2, 50}};
   page.nematic_order = 0.3;
   page.sweeps = {1, 2, 4};

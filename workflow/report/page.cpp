@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/io/h5md.h"
-#include "workflow/report/packing_report.h"
 #include "workflow/report/run_report.h"
 #include "workflow/report/state_report.h"
 #include "workflow/sweep/sweep.h"
@@ -61,7 +60,7 @@ Page page_of(const std::filesystem::path& input, const AnalysisChoice& choice,
     case PageSubject::state:
       return page_of_state(input, choice);
     case PageSubject::packing:
-      return {subject, 1, packing_page(packing_page_data(input, choice, progress))};
+      return {subject, 1, state_page(packing_page_data(input, choice, progress))};
     case PageSubject::run:
       return {subject, 1,
               report_page(

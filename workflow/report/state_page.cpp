@@ -6,7 +6,6 @@
 
 #include "analysis/observables/frame_observable.h"
 #include "core/io/json.h"
-#include "workflow/report/movie.h"
 #include "workflow/report/page_parts.h"
 #include "workflow/report/page_tables.h"
 
@@ -39,10 +38,10 @@ Json correlation(const NematicCorrelation& correlation) {
 }  // namespace
 
 std::string state_page(const StatePage& page) {
-  const std::vector<Observable> tables = frame_observables<2>();
-  MemoryTrajectory2 state({page.state});
+  const bool in_plane = std::holds_alternative<Movie2>(page.movie);
+  const std::vector<Observable> tables = in_plane ? frame_observables<2>() : frame_observables<3>();
   const Json data = {{"label", page.title},
-                     {"movie", movie_data(film(state))},
+                     {"movie", movie_data(page.movie)},
                      {"charts", charts_data(tables)},
                      {"tables", tables_data(page.structure, tables)},
                      {"correlation", correlation(page.nematic_correlation)},
@@ -51,13 +50,13 @@ std::string state_page(const StatePage& page) {
                      {"displacement", curve(page.sweeps, page.displacement)}};
   return whole_page({page.title,
                      page.subtitle,
-                     "page/state_sections.html",
+                     in_plane ? "page/state_sections.html" : "page/packing_sections.html",
                      "page/state.js",
                      {{"rows", table_rows(page.rows)}},
                      script_safe(data),
                      page.parameters,
                      page.provenance,
-                     2,
+                     in_plane ? 2 : 3,
                      page.units});
 }
 

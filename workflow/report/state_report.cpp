@@ -12,15 +12,14 @@
 namespace vitrel {
 namespace {
 
-StructureOptions structure_options(const Provenance& provenance, const std::string& file) {
-  if (provenance.parameters.empty()) return {};
-  return parse_parameters(provenance.parameters, file).structure;
+StructureOptions structure_options(const std::string& parameters, const std::string& file) {
+  if (parameters.empty()) return {};
+  return parse_parameters(parameters, file).structure;
 }
 
 /// S(q) and g(r); the page has the correlation of orientations in bins wide enough for a single state, in which
 /// g(r, θ) would be noise.
-std::vector<Table> structure(const Configuration2& state, const StructureOptions& options) {
-  MemoryTrajectory2 trajectory({state});
+std::vector<Table> structure(MemoryTrajectory2& trajectory, const StructureOptions& options) {
   std::vector<Table> tables =
       measure_frames(trajectory, options, all_cores, {}, {"structure_factor", "pair_correlation"})
           .tables;
@@ -33,19 +32,30 @@ std::vector<Table> structure(const Configuration2& state, const StructureOptions
   return tables;
 }
 
+/// With what the file says of itself.
+StatePage page_of_file(const TrajectoryReader& reader) {
+  const Provenance provenance = reader.provenance();
+  StatePage page;
+  page.parameters = provenance.parameters;
+  page.provenance = provenance_rows(provenance);
+  page.units = reader.units();
+  return page;
+}
+
 }  // namespace
 
 StatePage state_page_data(const std::filesystem::path& file, const KnownSystem& known) {
   const TrajectoryReader reader(file, known);
-  StatePage page;
-  page.state = reader.read(0);
-  const Provenance provenance = reader.provenance();
-  const Quality quality = read_quality(quality_file(file), page.state);
+  StatePage page = page_of_file(reader);
+  const Configuration2 state = reader.read(0);
+  const Quality quality = read_quality(quality_file(file), state);
   page.title = file.stem().string();
-  page.subtitle = fmt::format("{} {} at φ = {:.6g}", page.state.size(), particles_text(page.state),
+  page.subtitle = fmt::format("{} {} at φ = {:.6g}", state.size(), particles_text(state),
                               quality.packing_fraction);
   page.rows = quality_rows(quality);
-  page.structure.tables = structure(page.state, structure_options(provenance, file.string()));
+  MemoryTrajectory2 trajectory({state});
+  page.movie = film(trajectory);
+  page.structure.tables = structure(trajectory, structure_options(page.parameters, file.string()));
   page.nematic_correlation = quality.nematic_correlation;
   page.nematic_order = quality.nematic_order;
   if (quality.decorrelation) {
@@ -53,9 +63,23 @@ StatePage state_page_data(const std::filesystem::path& file, const KnownSystem& 
     page.orientation = quality.decorrelation->orientation;
     page.displacement = quality.decorrelation->displacement;
   }
-  page.parameters = provenance.parameters;
-  page.provenance = provenance_rows(provenance);
-  page.units = reader.units();
+  return page;
+}
+
+StatePage packing_page_data(const std::filesystem::path& file, const AnalysisChoice& choice,
+                            const AnalysisProgress& progress) {
+  const TrajectoryReader reader(file, known_system(choice));
+  StatePage page = page_of_file(reader);
+  const Configuration3 packing = read_state<3>(reader);
+  PackingQuality quality = measure_quality(packing, exact_check(packing));
+  const std::filesystem::path report = quality_file(file);
+  if (std::filesystem::exists(report)) add_preparation(quality, report);
+  page.title = fmt::format("Packing of {} {}", packing.size(), particles_text(packing));
+  page.subtitle = fmt::format("{}, φ = {:.6g}", file.stem().string(), quality.packing_fraction);
+  page.rows = quality_rows(quality);
+  MemoryTrajectory3 trajectory({packing});
+  page.movie = film(trajectory, {.particles = 10'000});
+  page.structure = analyze_run(file, choice, progress).results;
   return page;
 }
 
