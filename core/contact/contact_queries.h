@@ -16,8 +16,9 @@ inline bool separated(const Ellipse& one, const Pose2& pose1, const Ellipse& two
   return separated(one, direction(pose1.angle), two, direction(pose2.angle), d, margin);
 }
 
-inline bool separated(const Disk& one, const Pose2&, const Disk& two, const Pose2&, const Vec2& d,
-                      double margin) {
+template <int Dim>
+bool separated(const Ball<Dim>& one, const Pose<Dim>&, const Ball<Dim>& two, const Pose<Dim>&,
+               const Vec<Dim>& d, double margin) {
   const double reach = one.radius + two.radius + margin;
   return squared_norm(d) >= reach * reach;
 }
@@ -25,12 +26,6 @@ inline bool separated(const Disk& one, const Pose2&, const Disk& two, const Pose
 inline bool separated(const Ellipsoid& one, const Pose3& pose1, const Ellipsoid& two,
                       const Pose3& pose2, const Vec3& d, double margin) {
   return separated(one, pose1.orientation, two, pose2.orientation, d, margin);
-}
-
-inline bool separated(const Sphere& one, const Pose3&, const Sphere& two, const Pose3&,
-                      const Vec3& d, double margin) {
-  const double reach = one.radius + two.radius + margin;
-  return squared_norm(d) >= reach * reach;
 }
 
 inline SupportGap support_gap(const Ellipse& one, const Pose2& pose1, const Ellipse& two,
@@ -48,16 +43,13 @@ inline Vec2 surface_point(const Ellipse& body, const Pose2& pose, const Vec2& n)
   return surface_point(body, direction(pose.angle), n);
 }
 
-inline Vec2 surface_point(const Disk& body, const Pose2&, const Vec2& n) {
+template <int Dim>
+Vec<Dim> surface_point(const Ball<Dim>& body, const Pose<Dim>&, const Vec<Dim>& n) {
   return body.radius * n;
 }
 
 inline Vec3 surface_point(const Ellipsoid& body, const Pose3& pose, const Vec3& n) {
   return surface_point(body, pose.orientation, n);
-}
-
-inline Vec3 surface_point(const Sphere& body, const Pose3&, const Vec3& n) {
-  return body.radius * n;
 }
 
 }  // namespace vitrel

@@ -1,6 +1,5 @@
 #include "core/contact/ellipse_gap.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace vitrel {
@@ -76,7 +75,6 @@ class PerramWertheimRatio {
 };
 
 constexpr int max_lambda_steps = 100;
-constexpr int max_newton_steps = 60;
 
 }  // namespace
 
@@ -86,7 +84,7 @@ Vec2 initial_axis(const EllipsePair& pair) {
   return PerramWertheimRatio(pair).circle_like_axis();
 }
 
-SeparatingAxis find_separating_axis(const EllipsePair& pair) {
+SeparatingAxis<Vec2> find_separating_axis(const EllipsePair& pair) {
   const PerramWertheimRatio f(pair);
   double lambda = f.circle_like();
   double low = 0, high = 1;
@@ -102,35 +100,11 @@ SeparatingAxis find_separating_axis(const EllipsePair& pair) {
   return {f.axis(lambda), false};
 }
 
-bool improve_axis(const EllipsePair& pair, Vec2& n, GapAlongAxis& here) {
-  // A gain below the rounding of g = n·d − h₁ − h₂ is not visible.
-  constexpr double negligible = 1e-17;
-  if (!(here.curvature > 0) || here.gain() < negligible * dot(n, pair.d)) return false;
-  double turn = here.slope / here.curvature;
-  for (int halving = 0; halving < 30; ++halving, turn *= 0.25) {
-    const Vec2 trial = turned(n, turn);
-    const GapAlongAxis there = gap_along(pair, trial);
-    if (there.gap > here.gap) {
-      n = trial;
-      here = there;
-      return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace detail
 
 SupportGap support_gap(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
                        const Vec2& d) {
-  const EllipsePair pair(one, u1, two, u2, d);
-  auto [n, separates] = detail::find_separating_axis(pair);
-  if (!separates) return {std::min(0.0, gap_along(pair, n).gap), n};
-  GapAlongAxis here = gap_along(pair, n);
-  for (int step = 0; step < max_newton_steps; ++step)
-    if (!detail::improve_axis(pair, n, here)) break;
-  detail::polish_axis(pair, n, here);
-  return {here.gap, n};
+  return detail::largest_gap(EllipsePair(one, u1, two, u2, d));
 }
 
 SupportGap support_gap(const Ellipse& one, double angle1, const Ellipse& two, double angle2,
@@ -140,19 +114,8 @@ SupportGap support_gap(const Ellipse& one, double angle1, const Ellipse& two, do
 
 bool separated(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
                const Vec2& d, double margin) {
-  const double distance_squared = squared_norm(d);
-  const double outer = one.a + two.a + margin;
-  if (distance_squared >= outer * outer) return true;
-  const double inner = one.b + two.b + margin;
-  if (distance_squared < inner * inner) return false;
-
-  const EllipsePair pair(one, u1, two, u2, d);
-  auto [n, separates] = detail::find_separating_axis(pair);
-  if (!separates) return false;
-  GapAlongAxis here = gap_along(pair, n);
-  for (int step = 0; here.gap < margin && step < max_newton_steps; ++step)
-    if (!detail::improve_axis(pair, n, here)) break;
-  return here.gap >= margin;
+  return detail::are_separated(one, two, d, margin,
+                               [&] { return EllipsePair(one, u1, two, u2, d); });
 }
 
 }  // namespace vitrel

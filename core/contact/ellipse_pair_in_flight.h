@@ -83,9 +83,7 @@ class EllipsePairInFlight {
 
   Gap evaluate(const Axis& n) const { return gap_along<grows>(pair_, n); }
   Axis initial_axis() const { return detail::initial_axis(pair_); }
-  detail::SeparatingAxis find_separating_axis() const {
-    return detail::find_separating_axis(pair_);
-  }
+  auto find_separating_axis() const { return detail::find_separating_axis(pair_); }
   bool improve_axis(Axis& n, Gap& here) const { return detail::improve_axis(pair_, n, here); }
   void polish_axis(Axis& n, const Gap& here) const { detail::polish_axis(pair_, n, here); }
   /// From centre 1 to its surface point with normal n.

@@ -1,6 +1,5 @@
 #include "core/contact/ellipsoid_gap.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace vitrel {
@@ -8,7 +7,6 @@ namespace vitrel {
 namespace {
 
 constexpr int max_lambda_steps = 200;
-constexpr int max_newton_steps = 60;
 
 Axis3 axis_along(const Vec3& w) {
   return completed(components(normalized(w)));
@@ -75,7 +73,7 @@ Axis3 initial_axis(const EllipsoidPair& pair) {
   return axis_along(f.direction(f.circle_like()));
 }
 
-SeparatingAxis3 find_separating_axis(const EllipsoidPair& pair) {
+SeparatingAxis<Axis3> find_separating_axis(const EllipsoidPair& pair) {
   const PerramWertheimAxis f(pair);
   double lambda = f.circle_like();
   double low = 0, high = 1;
@@ -95,66 +93,17 @@ SeparatingAxis3 find_separating_axis(const EllipsoidPair& pair) {
   return {axis_along(w), false};
 }
 
-bool improve_axis(const EllipsoidPair& pair, Axis3& n, GapAlongAxis3& here) {
-  // A gain below the rounding of g = n·d − h₁ − h₂ is not visible.
-  constexpr double negligible = 1e-17;
-  if (!here.is_concave() || here.gain() < negligible * dot(vector(n.n), pair.d)) return false;
-  Tangent step = here.newton();
-  for (int halving = 0; halving < 30; ++halving, step *= 0.25) {
-    const Axis3 trial = turned(n, step);
-    const GapAlongAxis3 there = gap_along(pair, trial);
-    if (there.gap > here.gap) {
-      n = trial;
-      here = there;
-      return true;
-    }
-  }
-  return false;
-}
-
-void polish_axis(const EllipsoidPair& pair, Axis3& n, const GapAlongAxis3& here) {
-  constexpr int max_steps = 4;
-  constexpr double quadratic = 3e-8;  // such a step leaves less than rounding
-  if (!here.is_concave()) return;
-  Tangent step = here.newton();
-  n = turned(n, step);
-  for (int k = 1; k < max_steps && !(norm(step) < quadratic); ++k) {
-    const GapAlongAxis3 now = gap_along(pair, n);
-    if (!now.is_concave()) return;
-    step = now.newton();
-    n = turned(n, step);
-  }
-}
-
 }  // namespace detail
 
 SupportGap3 support_gap(const Ellipsoid& one, const Quaternion& orientation1, const Ellipsoid& two,
                         const Quaternion& orientation2, const Vec3& d) {
-  const EllipsoidPair pair = pair_at_rest(one, orientation1, two, orientation2, d);
-  auto [n, separates] = detail::find_separating_axis(pair);
-  GapAlongAxis3 here = gap_along(pair, n);
-  if (!separates) return {std::min(0.0, here.gap), vector(n.n)};
-  for (int step = 0; step < max_newton_steps; ++step)
-    if (!detail::improve_axis(pair, n, here)) break;
-  detail::polish_axis(pair, n, here);
-  return {here.gap, vector(n.n)};
+  return detail::largest_gap(pair_at_rest(one, orientation1, two, orientation2, d));
 }
 
 bool separated(const Ellipsoid& one, const Quaternion& orientation1, const Ellipsoid& two,
                const Quaternion& orientation2, const Vec3& d, double margin) {
-  const double distance_squared = squared_norm(d);
-  const double outer = one.circumradius() + two.circumradius() + margin;
-  if (distance_squared >= outer * outer) return true;
-  const double inner = one.inradius() + two.inradius() + margin;
-  if (distance_squared < inner * inner) return false;
-
-  const EllipsoidPair pair = pair_at_rest(one, orientation1, two, orientation2, d);
-  auto [n, separates] = detail::find_separating_axis(pair);
-  if (!separates) return false;
-  GapAlongAxis3 here = gap_along(pair, n);
-  for (int step = 0; here.gap < margin && step < max_newton_steps; ++step)
-    if (!detail::improve_axis(pair, n, here)) break;
-  return here.gap >= margin;
+  return detail::are_separated(
+      one, two, d, margin, [&] { return pair_at_rest(one, orientation1, two, orientation2, d); });
 }
 
 Vec3 surface_point(const Ellipsoid& body, const Quaternion& orientation, const Vec3& n) {

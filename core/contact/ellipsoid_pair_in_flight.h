@@ -73,9 +73,7 @@ class EllipsoidPairInFlight {
     return g;
   }
   Axis initial_axis() const { return detail::initial_axis(pair_); }
-  detail::SeparatingAxis3 find_separating_axis() const {
-    return detail::find_separating_axis(pair_);
-  }
+  auto find_separating_axis() const { return detail::find_separating_axis(pair_); }
   bool improve_axis(Axis& n, Gap& here) const {
     if (!detail::improve_axis(pair_, n, here)) return false;
     here = evaluate(n);

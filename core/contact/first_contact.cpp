@@ -49,7 +49,7 @@ Prediction<B::dimension> search(const Flight<B>& one, const Flight<B>& two, doub
 template <class B>
 Prediction<B::dimension> contact_of(const Flight<B>& one, const Flight<B>& two, double horizon,
                                     double contact_gap, const SearchStart<B::dimension>* start) {
-  if constexpr (!std::is_same_v<BaseShape<B>, Disk> && !std::is_same_v<BaseShape<B>, Sphere>)
+  if constexpr (!RoundBody<B>)
     if (!detail::is_round(one.body) || !detail::is_round(two.body))
       return search(one, two, horizon, contact_gap, start);
   return detail::round_contact(one, detail::as_round(one.body), two, detail::as_round(two.body),

@@ -1,10 +1,9 @@
 #pragma once
 
+#include "core/geometry/ball.h"
 #include "core/geometry/body.h"
-#include "core/geometry/disk.h"
 #include "core/geometry/ellipse.h"
 #include "core/geometry/growing.h"
-#include "core/geometry/sphere.h"
 
 /// @file
 /// The time at which two bodies in free flight, possibly growing, first touch.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <concepts>
-
 #include "core/contact/simd_batch.h"
 
 /// @file
@@ -16,38 +14,35 @@ template <class Shape>
 class GapBatch;
 
 /// Disks and spheres.
-template <class Shape>
-requires std::same_as<Shape, Disk> || std::same_as<Shape, Sphere>
-class GapBatch<Shape> {
-  static constexpr int dimension = Shape::dimension;
-
+template <int Dim>
+class GapBatch<Ball<Dim>> {
  public:
   static constexpr int lanes = 8;
 
-  GapBatch(const Shape& shape, const Orientation<dimension>&, double /*limit*/)
+  GapBatch(const Ball<Dim>& shape, const Orientation<Dim>&, double /*limit*/)
       : radius_(shape.radius) {}
 
-  VITREL_INLINE void set(int k, const Shape& shape, const Orientation<dimension>&,
-                         const Vec<dimension>& d) {
-    for (int x = 0; x < dimension; ++x) d_[x][k] = d[x];
+  VITREL_INLINE void set(int k, const Ball<Dim>& shape, const Orientation<Dim>&,
+                         const Vec<Dim>& d) {
+    for (int x = 0; x < Dim; ++x) d_[x][k] = d[x];
     radii_[k] = shape.radius;
   }
 
   void evaluate() {
     Simd<lanes> square = d_[0].load() * d_[0].load() + d_[1].load() * d_[1].load();
-    if constexpr (dimension == 3) square += d_[2].load() * d_[2].load();
+    if constexpr (Dim == 3) square += d_[2].load() * d_[2].load();
     gap_.store(sqrt(square) - (radii_.load() + radius_));
   }
 
   double gap(int k) const { return gap_[k]; }
   /// Round bodies need no axis.
-  Vec<dimension> axis(int) const { return Vec<dimension>::Zero(); }
+  Vec<Dim> axis(int) const { return Vec<Dim>::Zero(); }
 
  private:
   using Numbers = detail::BatchBuffer<lanes>;
 
   double radius_;
-  Numbers d_[dimension], radii_, gap_;
+  Numbers d_[Dim], radii_, gap_;
 };
 
 }  // namespace vitrel

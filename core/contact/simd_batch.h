@@ -4,8 +4,7 @@
 
 #include "core/contact/ellipse_pair.h"
 #include "core/geometry/asymmetric_top.h"
-#include "core/geometry/disk.h"
-#include "core/geometry/sphere.h"
+#include "core/geometry/ball.h"
 
 /// @file
 /// What all SIMD batches share: precomputed shape coefficients, and buffers that are filled lane by lane. One
@@ -16,16 +15,10 @@ namespace vitrel {
 template <class Shape>
 struct ShapeCoefficients;
 
-template <>
-struct ShapeCoefficients<Disk> {
+template <int Dim>
+struct ShapeCoefficients<Ball<Dim>> {
   double radius = 1;
-  explicit ShapeCoefficients(const Disk& disk) : radius(disk.radius) {}
-};
-
-template <>
-struct ShapeCoefficients<Sphere> {
-  double radius = 1;
-  explicit ShapeCoefficients(const Sphere& sphere) : radius(sphere.radius) {}
+  explicit ShapeCoefficients(const Ball<Dim>& ball) : radius(ball.radius) {}
 };
 
 template <>

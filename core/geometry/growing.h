@@ -4,10 +4,9 @@
 #include <cmath>
 #include <concepts>
 
-#include "core/geometry/disk.h"
+#include "core/geometry/ball.h"
 #include "core/geometry/ellipse.h"
 #include "core/geometry/ellipsoid.h"
-#include "core/geometry/sphere.h"
 
 namespace vitrel {
 
@@ -64,7 +63,6 @@ inline constexpr bool grows = ShapeOf<B>::grows;
 
 /// Disks and spheres, also growing ones.
 template <class B>
-concept RoundBody = Body<B> &&
-    (std::same_as<BaseShape<B>, Disk> || std::same_as<BaseShape<B>, Sphere>);
+concept RoundBody = Body<B> && std::same_as<BaseShape<B>, Ball<B::dimension>>;
 
 }  // namespace vitrel
