@@ -27,13 +27,6 @@ std::vector<Vec<Dim>> directions() {
   return result;
 }
 
-Vec2 axes_of(const Ellipse& shape) {
-  return {shape.a, shape.b};
-}
-const Vec3& axes_of(const Ellipsoid& shape) {
-  return shape.semi_axes;
-}
-
 /// ℓ²/I of the contact at the point with normal n.
 double lever_term(const Configuration2& c, std::size_t i, const Vec2& point, const Vec2& n) {
   const double lever = point.x() * n.y() - point.y() * n.x();
@@ -64,7 +57,7 @@ void HardFluid::Averages::add(const Averages& other, double weight) {
 template <int Dim>
 HardFluid::Averages HardFluid::averages_of(const Configuration<Dim>& c, std::size_t i) {
   static const std::vector<Vec<Dim>> normals = directions<Dim>();
-  const Vec<Dim> axes = axes_of(c.shape[i]);
+  const Vec<Dim> axes = semi_axes_of(c.shape[i]);
   const double weight = 1.0 / static_cast<double>(normals.size());
   Averages one;
   for (const Vec<Dim>& n : normals) {

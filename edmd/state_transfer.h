@@ -39,13 +39,6 @@ inline Ellipsoid particle_shape(const Sphere& shape) {
   return {Vec3::Constant(shape.radius)};
 }
 
-inline std::vector<double> semi_axis_values(const Ellipse& shape) {
-  return {shape.a, shape.b};
-}
-inline std::vector<double> semi_axis_values(const Ellipsoid& shape) {
-  return {shape.semi_axes[0], shape.semi_axes[1], shape.semi_axes[2]};
-}
-
 /// The magnitude of an angle, which determines its rounding error: unwrapped angles grow, quaternions stay normalised.
 inline double angle_magnitude(double angle) {
   return std::abs(angle);
@@ -116,7 +109,8 @@ void SimulationState<B>::load_types(const Configuration<dimension>& configuratio
   for (const Index k : external_id) {
     const Solid<dimension>& semi_axes = configuration.shape[k];
     const double mass = configuration.mass[k];
-    std::vector<double> numbers = detail::semi_axis_values(semi_axes);
+    const Vec<dimension> lengths = semi_axes_of(semi_axes);
+    std::vector<double> numbers(lengths.begin(), lengths.end());
     numbers.push_back(mass);
     const auto [place, is_new] = known.try_emplace(std::move(numbers), types.size());
     index.push_back(place->second);

@@ -129,18 +129,11 @@ Counts<Dim> place(Configuration<Dim>& configuration, const Lattice<Dim>& lattice
   return counts;
 }
 
-Vec2 semi_axes(const Ellipse& shape) {
-  return {shape.a, shape.b};
-}
-Vec3 semi_axes(const Ellipsoid& shape) {
-  return shape.semi_axes;
-}
-
 /// The longest semi-axis of any particle along each direction.
 template <int Dim>
 Vec<Dim> largest_semi_axes(const Configuration<Dim>& configuration) {
   Vec<Dim> largest = Vec<Dim>::Zero();
-  for (const Solid<Dim>& shape : configuration.shape) largest = largest.cwiseMax(semi_axes(shape));
+  for (const Solid<Dim>& shape : configuration.shape) largest = largest.cwiseMax(semi_axes_of(shape));
   return largest;
 }
 

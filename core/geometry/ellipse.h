@@ -29,6 +29,10 @@ struct Ellipse {
 
 static_assert(Body<Ellipse>);
 
+inline Vec2 semi_axes_of(const Ellipse& ellipse) {
+  return {ellipse.a, ellipse.b};
+}
+
 /// The same shape, of another size.
 inline Ellipse scaled(const Ellipse& ellipse, double size) {
   return {size * ellipse.a, size * ellipse.b};

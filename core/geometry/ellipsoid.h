@@ -56,6 +56,10 @@ inline double spin_factor(const Ellipsoid& spheroid) {
   return 0.5 * (squares[axis] + across) / across;
 }
 
+inline const Vec3& semi_axes_of(const Ellipsoid& ellipsoid) {
+  return ellipsoid.semi_axes;
+}
+
 /// The same shape, of another size.
 inline Ellipsoid scaled(const Ellipsoid& ellipsoid, double size) {
   return {size * ellipsoid.semi_axes};

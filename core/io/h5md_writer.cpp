@@ -6,10 +6,10 @@
 #include <numeric>
 #include <utility>
 
-#include "core/elementary.h"
 #include "core/error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/h5md.h"
+#include "core/state/in_space.h"
 
 namespace vitrel {
 namespace fs = std::filesystem;
@@ -82,28 +82,6 @@ void put(T* row, const Eigen::Matrix<T, Dim, 1>& vector) {
   for (int k = 0; k < 3; ++k) row[k] = k < Dim ? vector[k < Dim ? k : 0] : T{0};
 }
 
-Vec3 semi_axes(const Ellipse& shape) {
-  return {shape.a, shape.b, 0};
-}
-Vec3 semi_axes(const Ellipsoid& shape) {
-  return shape.semi_axes;
-}
-Vec3 in_space(double angular_velocity) {
-  return {0, 0, angular_velocity};
-}
-Vec3 in_space(const Vec3& angular_velocity) {
-  return angular_velocity;
-}
-
-Quaternion orientation(const Configuration2& configuration, std::size_t i) {
-  const double half = 0.5 * configuration.angle[i];
-  const auto [cosine, sine] = cosine_and_sine(half);
-  return {cosine, 0, 0, sine};
-}
-Quaternion orientation(const Configuration3& configuration, std::size_t i) {
-  return configuration.orientation[i];
-}
-
 void create_close_pairs(h5::Group& particles) {
   h5::Group pairs = particles.create_group("close_pairs");
   pairs.create_series<std::int64_t>("end", {}, entries_per_chunk);
@@ -118,7 +96,7 @@ void create_fixed_arrays(h5::Group& particles, const Configuration<Dim>& configu
   std::vector<std::int64_t> id(n);
   std::iota(id.begin(), id.end(), 0);
   std::vector<double> semiaxes(3 * n);
-  for (std::size_t i = 0; i < n; ++i) put(&semiaxes[3 * i], semi_axes(configuration.shape[i]));
+  for (std::size_t i = 0; i < n; ++i) put(&semiaxes[3 * i], semi_axes_of(configuration.shape[i]));
   particles.create_enumeration("species", configuration.species_names, configuration.species);
   particles.create_array<std::int64_t>("id", {n}, id);
   particles.create_array<double>("mass", {n}, configuration.mass);
@@ -367,7 +345,7 @@ void TrajectoryWriter::add_particles(const Configuration<Dim>& configuration) {
   if (orientation_) {
     const std::span<double> rows = orientation_->add_frame(4 * particles_);
     for (std::size_t i = 0; i < particles_; ++i) {
-      const Quaternion q = orientation(configuration, i);
+      const Quaternion q = orientation_in_space(configuration, i);
       std::ranges::copy(std::array{q.w(), q.x(), q.y(), q.z()}, &rows[4 * i]);
     }
   }
@@ -426,7 +404,7 @@ void TrajectoryWriter::add_velocities(const Configuration<Dim>& configuration) {
       return angular_velocity_->add(configuration.angular_velocity);
   const std::span<double> rows = angular_velocity_->add_frame(3 * particles_);
   for (std::size_t i = 0; i < particles_; ++i)
-    put(&rows[3 * i], in_space(configuration.angular_velocity[i]));
+    put(&rows[3 * i], angular_velocity_in_space(configuration.angular_velocity[i]));
 }
 
 template <int Dim>

@@ -3,6 +3,7 @@
 #include "core/io/foreign/foreign_frame.h"
 #include "core/io/h5md.h"
 #include "core/state/check.h"
+#include "core/state/in_space.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/interruption.h"
@@ -14,17 +15,10 @@ namespace {
 // ---- from arrays ------------------------------------------------------------------------------------------
 
 template <int Dim>
-Vec3 in_space(const Vec<Dim>& v) {
-  Vec3 result = Vec3::Zero();
-  result.head<Dim>() = v;
-  return result;
-}
-
-template <int Dim>
 std::vector<Vec3> rows_in_space(const Doubles& array, const std::string& name, std::size_t n) {
   require_rows(array, Dim, name, n);
   std::vector<Vec3> result(n);
-  for (std::size_t i = 0; i < n; ++i) result[i] = in_space<Dim>(row<Dim>(array, i));
+  for (std::size_t i = 0; i < n; ++i) result[i] = in_space(row<Dim>(array, i));
   return result;
 }
 
@@ -60,7 +54,7 @@ Configuration<Dim> state_of(const Arrays& given) {
   frame.semi_axes = rows_in_space<Dim>(given.semi_axes, "semi_axes", n);
   if (given.box.ndim() != 1 || given.box.shape(0) != Dim)
     throw UserError(fmt::format("box must have the shape ({},)", Dim));
-  frame.box = in_space<Dim>(Eigen::Map<const Vec<Dim>>(given.box.data()));
+  frame.box = in_space(Eigen::Map<const Vec<Dim>>(given.box.data()));
   if (given.angle) frame.angle = numbers(*given.angle, "angle", n);
   if (given.orientation) frame.orientation = quaternions(*given.orientation, n);
   if (given.mass) frame.mass = numbers(*given.mass, "mass", n);

@@ -7,24 +7,11 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "core/state/typical_scales.h"
 #include "workflow/configuration/distributions.h"
 
 namespace vitrel {
 namespace {
-
-double size_of(const Ellipse& shape) {
-  return std::sqrt(shape.a * shape.b);
-}
-double size_of(const Ellipsoid& shape) {
-  return root(prod(shape.semi_axes), 3);
-}
-
-std::vector<double> axes_of(const Ellipse& shape) {
-  return {shape.a, shape.b};
-}
-std::vector<double> axes_of(const Ellipsoid& shape) {
-  return {shape.semi_axes[0], shape.semi_axes[1], shape.semi_axes[2]};
-}
 
 // ---- one particle -----------------------------------------------------------------------------------
 
@@ -54,7 +41,8 @@ std::optional<Misfit> ratio_misfit(const Species& species, const std::vector<dou
 template <class Shape>
 std::optional<Misfit> misfit(const Species& species, const Shape& shape, double mass,
                              Agreement agreement) {
-  const std::vector<double> axes = axes_of(shape);
+  const auto lengths = semi_axes_of(shape);
+  const std::vector<double> axes(lengths.begin(), lengths.end());
   if (species.semi_axes) {
     if (!allow(*species.semi_axes, axes, agreement))
       return Misfit{"semi_axes", text(*species.semi_axes), to_toml(std::span<const double>(axes))};
@@ -160,7 +148,8 @@ template <int Dim>
 Distribution range_of(const Configuration<Dim>& state, const std::vector<std::size_t>& members,
                       std::size_t axis) {
   std::vector<double> lengths;
-  for (const std::size_t i : members) lengths.push_back(axes_of(state.shape[i])[axis]);
+  for (const std::size_t i : members)
+    lengths.push_back(semi_axes_of(state.shape[i])[static_cast<int>(axis)]);
   const auto [low, high] = std::ranges::minmax(lengths);
   if (agree(lengths.front(), low, Agreement::rounding) &&
       agree(lengths.front(), high, Agreement::rounding))

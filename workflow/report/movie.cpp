@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
@@ -203,12 +204,20 @@ Json boxes_data(const auto& boxes) {
   return data;
 }
 
-std::vector<double> semi_axes(const Ellipse& shape) {
-  return {shape.a, shape.b};
-}
-
-std::vector<double> semi_axes(const Ellipsoid& shape) {
-  return {shape.semi_axes[0], shape.semi_axes[1], shape.semi_axes[2]};
+/// Adds "shapes": all different semi-axes, and "shape": for every particle which of them it has.
+template <class Shape>
+void add_shapes(Json& data, const std::vector<Shape>& bodies) {
+  std::map<std::vector<double>, std::size_t> known;
+  Json shapes = Json::array(), shape = Json::array();
+  for (const Shape& body : bodies) {
+    const auto axes = semi_axes_of(body);
+    const auto [place, added] =
+        known.emplace(std::vector<double>(axes.begin(), axes.end()), known.size());
+    if (added) shapes.push_back(rounded(axes));
+    shape.push_back(place->second);
+  }
+  data["shapes"] = std::move(shapes);
+  data["shape"] = std::move(shape);
 }
 
 /// Frame, particle and shift of each.
@@ -250,9 +259,7 @@ Json data_of(const Movie<Dim>& movie) {
                {"overlappingPairs", movie.overlapping_pairs},
                {"overlapping", movie.overlapping}};
   if constexpr (Dim == 3) data["images"] = images_data(movie);
-  std::vector<std::vector<double>> shapes;
-  for (const Solid<Dim>& shape : movie.shape) shapes.push_back(semi_axes(shape));
-  add_shapes(data, shapes);
+  add_shapes(data, movie.shape);
   if (movie.species_names.size() > 1) data["species"] = movie.species;
   return data;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/io/json.h"
@@ -22,21 +21,6 @@ Json page_numbers(const std::vector<double>& values, const std::vector<std::size
   Json array = Json::array();
   for (const std::size_t row : rows) array.push_back(page_number(values[row], digits));
   return array;
-}
-
-void add_shapes(Json& data, const std::vector<std::vector<double>>& semi_axes) {
-  std::map<std::vector<double>, std::size_t> known;
-  Json shapes = Json::array(), shape = Json::array();
-  for (const std::vector<double>& axes : semi_axes) {
-    const auto [place, added] = known.emplace(axes, known.size());
-    if (added) {
-      Json& numbers = shapes.emplace_back(Json::array());
-      for (const double axis : axes) numbers.push_back(page_number(axis));
-    }
-    shape.push_back(place->second);
-  }
-  data["shapes"] = std::move(shapes);
-  data["shape"] = std::move(shape);
 }
 
 std::string script_safe(const Json& data) {

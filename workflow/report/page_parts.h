@@ -22,9 +22,6 @@ Json page_number(double value, int digits = 6);
 Json page_numbers(const std::vector<double>& values, const std::vector<std::size_t>& rows,
                   int digits = 6);
 
-/// Adds "shapes": every list of semi-axes once, and "shape": for every particle which of them it has.
-void add_shapes(Json& data, const std::vector<std::vector<double>>& semi_axes);
-
 /// JSON or ordered JSON inside a script element: no "<" is left that could end it.
 std::string script_safe(const Json& data);
 
