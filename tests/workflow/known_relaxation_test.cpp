@@ -1,5 +1,4 @@
 // Runs that end as soon as their relaxation times are known.
-#include "workflow/run/known_relaxation.h"
 
 #include <gmock/gmock.h>
 

@@ -72,7 +72,7 @@ struct DynamicsParameters {
   double brownian_step = 0.1;
   double equilibration = 10;
   double duration = 100;  ///< at most, if relaxation times end the run
-  /// The run ends as soon as it has lasted so many of them (workflow/run/known_relaxation.h).
+  /// The run ends as soon as it has lasted so many of them (workflow/run/correlations_file.h).
   std::optional<double> relaxation_times = {};
   RestitutionParameters restitution;
   double friction = 0, tangential_restitution = 0;

@@ -2,8 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 #include "analysis/dynamics/displacement.h"
+#include "analysis/dynamics/relaxation.h"
 #include "core/error.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
@@ -37,6 +43,15 @@ Table wave_number_table(const std::vector<double>& wave_numbers) {
           {{"index", "1", std::move(index)}, {"q", "1/length", wave_numbers}}};
 }
 
+double relaxation_of(const CorrelatedGroup& group, const std::string& column) {
+  const auto find = [&](const std::string& name) {
+    return std::ranges::find(group.columns, name, &Column::name);
+  };
+  const auto values = find(column), time = find("time");
+  if (values == group.columns.end() || time->value.empty()) return unknown;
+  return relaxation_time({time->value, values->value, values->error}).value;
+}
+
 }  // namespace
 
 fs::path correlations_path(const fs::path& run) {
@@ -59,22 +74,19 @@ double correlator_bytes(const Parameters& parameters) {
                correlator_options(parameters));
 }
 
-template <int Dim>
 void write_correlations(const fs::path& run, const Parameters& parameters,
-                        const MultipleTau<Dim>& correlator) {
-  std::vector<CorrelatedGroup> groups = correlator.correlations();
+                        std::vector<CorrelatedGroup> groups,
+                        const std::vector<double>& wave_numbers) {
   Results results;
   for (CorrelatedGroup& group : groups)
     results.tables.push_back(correlation_table(std::move(group)));
-  results.tables.push_back(wave_number_table(correlator.options().wave_numbers));
+  results.tables.push_back(wave_number_table(wave_numbers));
   results.provenance.emplace_back("parameters", effective_parameters(parameters));
   write_results(correlations_path(run), results);
 }
 
 template std::optional<MultipleTau<2>> correlator(const Parameters&, const Configuration2&);
 template std::optional<MultipleTau<3>> correlator(const Parameters&, const Configuration3&);
-template void write_correlations(const fs::path&, const Parameters&, const MultipleTau<2>&);
-template void write_correlations(const fs::path&, const Parameters&, const MultipleTau<3>&);
 
 void forget_correlations(const fs::path& run) {
   std::error_code error;
@@ -92,6 +104,20 @@ std::vector<Table> on_the_fly_tables(const fs::path& run) {
     table.name = "on_the_fly_" + table.name;
   }
   return std::move(results.tables);
+}
+
+bool is_time_to_look(double time, double interval, double at_most) {
+  constexpr double rounding = 1e-9;
+  double latest = at_most;
+  while (latest > time * (1 + rounding)) latest *= 0.5;
+  return latest > (time - interval) * (1 + rounding);
+}
+
+double known_relaxation(const CorrelatedGroup& all, int dimension) {
+  const double translation = relaxation_of(all, "fs_1");
+  if (all.rotors == 0) return translation;
+  const double rotation = relaxation_of(all, dimension == 2 ? "l_2" : "p_2");
+  return std::isnan(translation) ? translation : std::max(rotation, translation);
 }
 
 }  // namespace vitrel

@@ -24,14 +24,26 @@ std::optional<MultipleTau<Dim>> correlator(const Parameters& parameters,
 double correlator_bytes(const Parameters& parameters);
 
 /// Atomic like write_results. Throws FileError.
-template <int Dim>
 void write_correlations(const std::filesystem::path& run, const Parameters& parameters,
-                        const MultipleTau<Dim>& correlator);
+                        std::vector<CorrelatedGroup> groups,
+                        const std::vector<double>& wave_numbers);
 /// Removes the file of an earlier run of that name, if there is one. Throws FileError.
 void forget_correlations(const std::filesystem::path& run);
 
 /// The tables of the file, as the analysis of the run names them: on_the_fly_<group> and
 /// on_the_fly_wave_numbers. Empty without a file. Throws FileError.
 std::vector<Table> on_the_fly_tables(const std::filesystem::path& run);
+
+/// @name Runs that end as soon as their relaxation is known
+/// The relaxation time is that of a correlator on the fly (relaxation.h): the time in which F_s at its first wave number
+/// falls to 1/e, or L_2 of the rotors (P_2 in space), whichever takes longer. It is looked at after at_most/2^k, so that
+/// neither threads nor stops and restarts change when a run ends. To stop by what is measured biases it: of runs of one
+/// length those end in which relaxation happens to be fast.
+/// @{
+/// Whether at_most/2^k, k = 0, 1, 2 …, lies within the interval that ends now.
+bool is_time_to_look(double time, double interval, double at_most);
+/// The relaxation time so far, of all particles; NaN if it is not known.
+double known_relaxation(const CorrelatedGroup& all, int dimension);
+/// @}
 
 }  // namespace vitrel

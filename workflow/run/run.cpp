@@ -8,13 +8,11 @@
 #include "core/io/h5md.h"
 #include "core/io/json.h"
 #include "core/state/check.h"
+#include "core/state/typical_scales.h"
 #include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/soft_particles.h"
 #include "workflow/prepare/prepare.h"
-#include "workflow/run/brownian_step.h"
 #include "workflow/run/correlations_file.h"
-#include "workflow/run/known_relaxation.h"
-#include "workflow/run/run_checkpoint.h"
 #include "workflow/run/run_cost.h"
 #include "workflow/run/run_start.h"
 #include "workflow/storage/checkpoint_file.h"
@@ -121,7 +119,8 @@ class RunJob {
   void save() {
     if (correlator_) {
       stored_.correlations = correlator_->state();
-      write_correlations(request_.output, request_.parameters, *correlator_);
+      write_correlations(request_.output, request_.parameters, correlator_->correlations(),
+                         correlator_->options().wave_numbers);
     }
     checkpoint_.save(to_checkpoint(stored_));
   }
@@ -147,7 +146,8 @@ class RunJob {
 
   void advance(bool continues) {
     RunState<Dim>& state = stored_.state;
-    if (continues) log_line(log_, "continuing at " + time_text(state));
+    if (continues)
+      log_line(log_, "continuing at " + time_text(state.configuration.time, state.start_time));
     const DynamicsOptions options = dynamics();
     const std::string model = model_text(request_.parameters, state.configuration);
     log_line(log_, "run of " + model);
@@ -183,7 +183,7 @@ class RunJob {
   bool is_known(double time) const {
     const DynamicsParameters& p = request_.parameters.dynamics;
     if (!is_time_to_look(time, correlator_->options().interval, p.duration)) return false;
-    const double relaxation = known_relaxation(*correlator_);
+    const double relaxation = known_relaxation(correlator_->correlations().front(), Dim);
     if (!(time >= *p.relaxation_times * relaxation)) return false;
     log_line(log_,
              fmt::format("the run ends after {:g}, which is {:.3g} relaxation times of {:.4g}",
@@ -253,7 +253,8 @@ class RunJob {
   void warn_of_long_steps() const {
     const DynamicsParameters& p = request_.parameters.dynamics;
     if (p.kind != DynamicsParameters::Kind::brownian) return;
-    const std::string text = long_step_text(p.brownian_step, stored_.state.configuration);
+    const std::string text =
+        long_step_text(p.brownian_step, typical_time(stored_.state.configuration));
     if (!text.empty()) log_line(log_, "warning: " + text);
   }
 
@@ -325,7 +326,7 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
       {"collisions_per_second", collisions / (outcome.wall_seconds - state.output_seconds)},
       {"collisions_per_second_with_output", collisions / outcome.wall_seconds}};
   if (dynamics.kind == DynamicsParameters::Kind::brownian)
-    summary["brownian_step_in_sizes"] = step_in_sizes(dynamics.brownian_step, state.configuration);
+    summary["brownian_step_in_sizes"] = dynamics.brownian_step / typical_time(state.configuration);
   if (is_dissipative(dynamics) || dynamics.contact)
     summary["dissipated_energy"] = counters.dissipated;
   if (dynamics.driving) summary["supplied_energy"] = counters.supplied;

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/state/typical_scales.h"
 #include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/soft_particles.h"
 #include "workflow/configuration/start_state.h"
 #include "workflow/prepare/preparation_plan.h"
-#include "workflow/run/brownian_step.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run.h"
 #include "workflow/run/run_cost.h"
@@ -24,7 +24,8 @@ std::string start_text(RunRequest& request) {
   if (checkpoint_exists(checkpoint)) {
     const RunCheckpoint<Dim> run = stored_run<Dim>(request, load_checkpoint(checkpoint).checkpoint);
     return run.complete ? "nothing: the run is complete"
-                        : fmt::format("the checkpoint at {}, {} frames", time_text(run.state),
+                        : fmt::format("the checkpoint at {}, {} frames",
+                                      time_text(run.state.configuration.time, run.state.start_time),
                                       run.state.next_sample);
   }
   refuse_foreign_output(request.output);
@@ -67,7 +68,7 @@ double free_disk(const fs::path& output) {
 template <int Dim>
 std::string step_text(const DynamicsParameters& p, const Configuration<Dim>& some) {
   if (p.kind != DynamicsParameters::Kind::brownian) return "";
-  const std::string text = long_step_text(p.brownian_step, some);
+  const std::string text = long_step_text(p.brownian_step, typical_time(some));
   return text.empty() ? text : fmt::format("warning      {}\n", text);
 }
 

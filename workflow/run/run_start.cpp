@@ -9,6 +9,8 @@
 #include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/start_state.h"
 #include "workflow/storage/checkpoint_file.h"
+#include "workflow/storage/checkpoint_items.h"
+#include "workflow/storage/state_items.h"
 
 namespace vitrel {
 namespace {
@@ -66,6 +68,37 @@ void require_trajectory(const RunCheckpoint<Dim>& run, const Parameters& recorde
   } else if (run.state.next_sample > 0) {
     throw refusal("is missing");
   }
+}
+
+template <class Run, class Visit>
+void each_item(Run& run, Visit&& visit) {
+  auto& state = run.state;
+  each_item_of_counters(state.counters, "", visit);
+  visit("start_time", state.start_time);
+  visit("flight_energy", state.flight_energy);
+  visit("energy_drift", state.energy_drift);
+  visit("largest_momentum", state.largest_momentum);
+  visit("wall_seconds", run.wall_seconds);
+  visit.if_recorded("output_seconds", state.output_seconds);
+  visit("brownian_steps", state.velocity_steps);
+  visit("next_sample", state.next_sample);
+  visit("next_tick", state.next_tick);
+  visit("correlations", run.correlations);
+  visit("complete", run.complete);
+}
+
+/// Throws FileError, naming `file`, if a number is missing, or it is of the other dimension.
+template <int Dim>
+RunCheckpoint<Dim> run_from_checkpoint(const Checkpoint& checkpoint,
+                                       const std::filesystem::path& file) {
+  const auto* configuration = std::get_if<Configuration<Dim>>(&checkpoint.configuration);
+  if (!configuration)
+    throw FileError(fmt::format("{}: is not of a run in {} dimensions", file.string(), Dim));
+  RunCheckpoint<Dim> run;
+  run.state.configuration = *configuration;
+  run.parameters = checkpoint.parameters;
+  each_item(run, ItemReader(checkpoint, file));
+  return run;
 }
 
 /// Of a complete run the checkpoint before the last. The last is of the end, where a longer run would not have stopped:
@@ -146,19 +179,25 @@ void set_velocities(Configuration<Dim>& configuration, const Parameters& paramet
 }
 
 // Before time 0 the run equilibrates.
-template <int Dim>
-std::string time_text(const RunState<Dim>& state) {
-  const double time = state.configuration.time;
-  return time < 0 ? fmt::format("time {:.6g} of {:.6g} of the equilibration",
-                                time - state.start_time, -state.start_time)
+std::string time_text(double time, double start) {
+  return time < 0 ? fmt::format("time {:.6g} of {:.6g} of the equilibration", time - start, -start)
                   : fmt::format("time {:.6g}", time + 0.);  // no −0
+}
+
+template <int Dim>
+Checkpoint to_checkpoint(const RunCheckpoint<Dim>& run) {
+  Checkpoint checkpoint;
+  checkpoint.configuration = run.state.configuration;
+  checkpoint.parameters = run.parameters;
+  each_item(run, ItemWriter(checkpoint));
+  return checkpoint;
 }
 
 template RunCheckpoint<2> stored_run(RunRequest&, const Checkpoint&);
 template RunCheckpoint<3> stored_run(RunRequest&, const Checkpoint&);
 template void set_velocities(Configuration2&, const Parameters&);
 template void set_velocities(Configuration3&, const Parameters&);
-template std::string time_text(const RunState<2>&);
-template std::string time_text(const RunState<3>&);
+template Checkpoint to_checkpoint(const RunCheckpoint<2>&);
+template Checkpoint to_checkpoint(const RunCheckpoint<3>&);
 
 }  // namespace vitrel
