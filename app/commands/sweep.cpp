@@ -9,7 +9,6 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
 #include "workflow/sweep/sweep_export.h"
-#include "workflow/sweep/sweep_plan.h"
 #include "workflow/sweep/sweep_status.h"
 
 namespace vitrel {

@@ -17,7 +17,7 @@
 #include "workflow/analyze/glass_tables.h"
 #include "workflow/analyze/relaxation_tables.h"
 #include "workflow/analyze/run_analysis.h"
-#include "workflow/configuration/species_names.h"
+#include "workflow/configuration/sections.h"
 #include "workflow/configuration/start_state.h"
 #include "workflow/run/correlations_file.h"
 

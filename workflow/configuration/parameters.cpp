@@ -8,7 +8,6 @@
 
 #include "edmd/sampling.h"
 #include "workflow/configuration/hard_contacts.h"
-#include "workflow/configuration/packing_bound.h"
 #include "workflow/configuration/sections.h"
 
 namespace vitrel {

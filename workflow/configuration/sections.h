@@ -1,5 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/state/species.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/rules.h"
 
@@ -22,6 +28,27 @@ void validate_species(const std::vector<Species>& species, int dimension);
 Species default_species();
 /// Whether all its particles are disks or spheres.
 bool is_round(const Species& p);
+
+/// The packing fraction that no arrangement of these particles exceeds, as far as that is known:
+///
+/// - Ellipses of equal area A, whatever their aspect ratios: π/√12. For ellipses that do not overlap lie in as many
+///   convex polygons that do not overlap and have six sides on average (fejestoth1950), and a polygon of n sides around
+///   an ellipse has at least the area (A/π) n tan(π/n), convex in n.
+/// - Equal spheres: π/√18 (hales2005).
+/// - All others: 1. Small disks or spheres fill the holes between large ones, and crystals of ellipsoids are denser than
+///   those of spheres: 0.7707 at the aspect ratio √3 (donev2004).
+///
+/// The species must be valid.
+PackingBound packing_bound(const std::vector<Species>& species, int dimension);
+
+struct SpeciesNameConflict {
+  std::size_t species;    ///< the later one of two
+  std::string complaint;  ///< completes "its name …"
+};
+
+/// Tables and columns of results are called after species (identifier, results.h). Two species that
+/// would share them, or one that would take those of something else, are a conflict.
+std::optional<SpeciesNameConflict> species_name_conflict(const std::vector<std::string>& names);
 
 /// The words for FreeRotation.
 inline constexpr const char* rotation_names[] = {"euler", "constant"};

@@ -1,13 +1,14 @@
-#include "workflow/configuration/sections.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
+#include "analysis/results.h"
 #include "workflow/configuration/distributions.h"
-#include "workflow/configuration/species_names.h"
+#include "workflow/configuration/sections.h"
 
 namespace vitrel {
 namespace {
@@ -73,6 +74,60 @@ void validate_shape(const Species& p, int dimension, const std::string& path) {
                     ? "is missing; give aspect_ratio (1 for disks) or semi_axes"
                     : "is missing; give aspect_ratio (1 for spheres), aspect_ratios or semi_axes");
   validate_distribution(*p.aspect_ratio, 1, path + ".aspect_ratio");
+}
+
+std::vector<Distribution> ratios(const Species& species, int dimension) {
+  if (species.aspect_ratios) return {species.aspect_ratios->begin(), species.aspect_ratios->end()};
+  return std::vector(static_cast<std::size_t>(dimension) - 1,
+                     species.aspect_ratio.value_or(constant(1)));
+}
+
+/// a b, or a b c, of all particles of the species; nothing if they differ in it.
+std::optional<double> semi_axis_product(const Species& species, int dimension) {
+  if (species.semi_axes) return constant_product(*species.semi_axes);
+  const auto all = static_cast<std::size_t>(dimension);
+  if (!species.first_semi_axis)
+    return constant_product(std::vector(all, species.size.value_or(constant(1))));
+  const auto of_ratios = constant_product(ratios(species, dimension));
+  const auto of_first = constant_product(std::vector(all, *species.first_semi_axis));
+  return of_ratios && of_first ? std::optional(*of_first / *of_ratios) : std::nullopt;
+}
+
+bool agree_in_semi_axis_product(const std::vector<Species>& species, int dimension) {
+  const auto first = semi_axis_product(species.front(), dimension);
+  return first && std::ranges::all_of(species, [&](const Species& kind) {
+           const auto other = semi_axis_product(kind, dimension);
+           return other && allows(constant(*first), *other);
+         });
+}
+
+struct Taken {
+  const char* name;
+  const char* by;
+};
+
+constexpr Taken taken_names[] = {
+    {"all", "displacements_all and others, of all particles"},
+    {"distribution", "orientation_distribution"},
+    {"wave_numbers", "on_the_fly_wave_numbers"},
+};
+
+std::string complaint(const std::string& name, const std::vector<std::string>& earlier) {
+  const std::string own = identifier(name);
+  for (const Taken& taken : taken_names)
+    if (own == taken.name)
+      return fmt::format("is \"{}\", which results have in their table {}; choose another", name,
+                         taken.by);
+  if (std::ranges::find(earlier, name) != earlier.end())
+    return fmt::format("is \"{}\" like that of an earlier species; every species needs its own",
+                       name);
+  for (const std::string& other : earlier)
+    if (identifier(other) == own)
+      return fmt::format(
+          "is \"{}\", which tables of results call {} like the earlier \"{}\"; choose names that "
+          "differ in letters from a to z or digits",
+          name, own, other);
+  return "";
 }
 
 }  // namespace
@@ -213,6 +268,28 @@ Species default_species() {
   Species species;
   species.aspect_ratio = Distribution{Distribution::Kind::constant, 2, 0.1, 1, 2, 1};
   return species;
+}
+
+PackingBound packing_bound(const std::vector<Species>& species, int dimension) {
+  if (agree_in_semi_axis_product(species, dimension)) {
+    if (dimension == 2)
+      return {std::numbers::pi / std::sqrt(12.0),
+              "π/√12 = 0.9069 where all particles have the same area"};
+    if (std::ranges::all_of(species, is_round))
+      return {std::numbers::pi / std::sqrt(18.0),
+              "π/√18 = 0.7405 where all particles are equal spheres"};
+  }
+  return {1, "1"};
+}
+
+std::optional<SpeciesNameConflict> species_name_conflict(const std::vector<std::string>& names) {
+  std::vector<std::string> earlier;
+  for (const std::string& name : names) {
+    if (const std::string found = complaint(name, earlier); !found.empty())
+      return SpeciesNameConflict{earlier.size(), found};
+    earlier.push_back(name);
+  }
+  return std::nullopt;
 }
 
 }  // namespace vitrel

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 
@@ -11,8 +13,6 @@
 /// pressure, or whichever of the two comes first.
 namespace vitrel {
 
-std::string growth_description(const char* method, const std::optional<double>& reduced_pressure);
-
 template <class S>
 struct GrowthGoal : StageDefaults {
   std::optional<double> packing_fraction;
@@ -20,7 +20,11 @@ struct GrowthGoal : StageDefaults {
   double growth_rate = GrowthOptions().growth_rate;
 
   StageEnding ending() const { return ending_known_if(!reduced_pressure); }
-  std::string description() const { return growth_description(S::method, reduced_pressure); }
+  std::string description() const {
+    return reduced_pressure
+               ? fmt::format("{} to reduced pressure {:.4g}", S::method, *reduced_pressure)
+               : "";
+  }
   /// `end`: of the stage (end_of_stage).
   std::optional<double> packing_fraction_goal(double end) const {
     return reduced_pressure ? packing_fraction : end;

@@ -18,8 +18,15 @@ class CheckpointFile {
   const std::filesystem::path& path() const { return path_; }
   bool exists() const { return checkpoint_exists(path_); }
   /// `log` gets a line if the checkpoint is not the newest that was written.
-  Checkpoint load(const Log& log) const;
-  void save(const Checkpoint& checkpoint);
+  Checkpoint load(const Log& log) const {
+    LoadedCheckpoint loaded = load_checkpoint(path_);
+    if (!loaded.warning.empty()) log_line(log, loaded.warning);
+    return std::move(loaded.checkpoint);
+  }
+  void save(const Checkpoint& checkpoint) {
+    save_checkpoint(path_, checkpoint);
+    since_last_ = WorkTimer();
+  }
   /// Whether the interval has passed since the last one.
   bool is_due() const { return since_last_.seconds() >= interval_; }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/io/checkpoint.h"
 
 /// @file
@@ -57,7 +58,10 @@ class ItemReader {
   }
 
  private:
-  [[noreturn]] void refuse_without(const std::string& name) const;
+  [[noreturn]] void refuse_without(const std::string& name) const {
+    throw FileError(file_.string() + ": is no checkpoint of this kind of work: '" + name +
+                    "' is missing; delete it to start anew");
+  }
 
   const Checkpoint& checkpoint_;
   const std::filesystem::path& file_;

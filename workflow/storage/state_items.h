@@ -9,8 +9,7 @@
 /// ItemReader (checkpoint_items.h), and every name begins with `path`.
 namespace vitrel {
 
-template <class Counters, class Visit>
-void each_item_of_counters(Counters& counters, const std::string& path, Visit&& visit) {
+void each_item_of_counters(auto& counters, const std::string& path, auto&& visit) {
   visit(path + "virial", counters.virial);
   visit(path + "dissipated", counters.dissipated);
   visit(path + "events", counters.events);
@@ -32,8 +31,7 @@ void each_item_of_counters(Counters& counters, const std::string& path, Visit&& 
                       counters.helfand_moment[k]);
 }
 
-template <class Growth, class Visit>
-void each_item_of_growth(Growth& growth, const std::string& path, Visit&& visit) {
+void each_item_of_growth(auto& growth, const std::string& path, auto&& visit) {
   visit(path + "draws", growth.draws);
   visit.if_recorded(path + "retries", growth.retries);
   visit(path + "under_way", growth.under_way);
@@ -42,16 +40,14 @@ void each_item_of_growth(Growth& growth, const std::string& path, Visit&& visit)
   each_item_of_counters(growth.counters, path, visit);
 }
 
-template <class Counts, class Visit>
-void each_item_of_exchanges(Counts& counts, const std::string& path, Visit&& visit) {
+void each_item_of_exchanges(auto& counts, const std::string& path, auto&& visit) {
   visit.if_recorded(path + "exchanges_tried", counts.tried);
   visit.if_recorded(path + "exchanges_accepted", counts.accepted);
   visit.if_recorded(path + "exchange_steps", counts.steps);
   visit.if_recorded(path + "accepted_exchange_steps", counts.accepted_steps);
 }
 
-template <class Counts, class Visit>
-void each_item_of_trials(Counts& counts, const std::string& path, Visit&& visit) {
+void each_item_of_trials(auto& counts, const std::string& path, auto&& visit) {
   visit(path + "translations_tried", counts.translations_tried);
   visit(path + "translations_accepted", counts.translations_accepted);
   visit(path + "rotations_tried", counts.rotations_tried);
@@ -59,15 +55,13 @@ void each_item_of_trials(Counts& counts, const std::string& path, Visit&& visit)
   each_item_of_exchanges(counts.exchanges, path, visit);
 }
 
-template <class Step, class Visit>
-void each_item_of_step(Step& step, const std::string& path, Visit&& visit) {
+void each_item_of_step(auto& step, const std::string& path, auto&& visit) {
   visit(path + "size", step.size);
   visit(path + "tried", step.tried);
   visit(path + "accepted", step.accepted);
 }
 
-template <class Moves, class Visit>
-void each_item_of_moves(Moves& moves, const std::string& path, Visit&& visit) {
+void each_item_of_moves(auto& moves, const std::string& path, auto&& visit) {
   visit(path + "next_sweep", moves.next_sweep);
   visit(path + "sweeps", moves.sweeps);
   each_item_of_step(moves.translation, path + "translation.", visit);
@@ -75,8 +69,7 @@ void each_item_of_moves(Moves& moves, const std::string& path, Visit&& visit) {
   each_item_of_trials(moves.counts, path, visit);
 }
 
-template <class Chains, class Visit>
-void each_item_of_chains(Chains& state, const std::string& path, Visit&& visit) {
+void each_item_of_chains(auto& state, const std::string& path, auto&& visit) {
   visit(path + "next_sweep", state.next_sweep);
   visit(path + "sweeps", state.sweeps);
   visit(path + "chains", state.chains);
@@ -96,8 +89,7 @@ void each_item_of_chains(Chains& state, const std::string& path, Visit&& visit) 
   visit(path + "tuned_contacts", state.tuned_contacts);
 }
 
-template <class Decorrelation, class Visit>
-void each_item_of_decorrelation(Decorrelation& state, const std::string& path, Visit&& visit) {
+void each_item_of_decorrelation(auto& state, const std::string& path, auto&& visit) {
   visit.if_recorded(path + "count", state.count);
   visit.if_recorded(path + "places", state.places);
   visit.if_recorded(path + "orientations", state.orientations);
@@ -107,8 +99,7 @@ void each_item_of_decorrelation(Decorrelation& state, const std::string& path, V
   visit.if_recorded(path + "first", state.first);
 }
 
-template <class Sampling, class Visit>
-void each_item_of_sampling(Sampling& state, const std::string& path, Visit&& visit) {
+void each_item_of_sampling(auto& state, const std::string& path, auto&& visit) {
   each_item_of_chains(state.chains, path + "chains.", visit);
   each_item_of_moves(state.local, path + "local.", visit);
   each_item_of_decorrelation(state.decorrelation, path + "decorrelation.", visit);

@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/io/number_text.h"
+#include "workflow/prepare/preparation_plan.h"
+#include "workflow/run/run_cost.h"
 #include "workflow/sweep/job_folder.h"
 #include "workflow/sweep/seed_averages.h"
-#include "workflow/sweep/text_table.h"
 
 namespace vitrel {
 namespace {
@@ -19,6 +21,33 @@ namespace {
 namespace fs = std::filesystem;
 
 using Row = std::vector<std::string>;
+
+/// What stands in a cell without a value.
+constexpr const char* missing_cell = "–";
+
+/// In characters, not bytes.
+std::size_t width_of(const std::string& utf8) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Rows of cells, the titles first, as columns of equal width, without those that are empty but for their title; the
+/// first `texts` columns are flush left, the others right.
+std::string text_table(const std::vector<Row>& rows, std::size_t texts) {
+  std::vector<std::string> text(rows.size());
+  for (std::size_t k = 0; k < rows[0].size(); ++k) {
+    const auto is_missing = [k](const auto& row) { return row[k] == missing_cell; };
+    if (rows.size() > 1 && std::all_of(rows.begin() + 1, rows.end(), is_missing)) continue;
+    std::size_t width = 0;
+    for (const auto& row : rows) width = std::max(width, width_of(row[k]));
+    for (std::size_t n = 0; n < rows.size(); ++n)
+      text[n] += k < texts ? fmt::format("{:<{}}  ", rows[n][k], width)
+                           : fmt::format("{:>{}}  ", rows[n][k], width);
+  }
+  std::string all;
+  for (std::string& line : text) all += line.erase(line.find_last_not_of(' ') + 1) + '\n';
+  return all;
+}
 
 /// A number of the summaries that has a column.
 struct ShownFigure {
@@ -151,6 +180,36 @@ std::vector<std::string> strangers(const std::vector<SweepJob>& jobs, const fs::
   return {ids.begin(), ids.end()};
 }
 
+struct JobCost {
+  StageCost preparation;
+  RunCost run;  ///< nothing of a job that only prepares a state
+
+  double seconds() const { return preparation.seconds + run.seconds; }
+};
+
+/// `start`: the packing fraction of the state that it starts from, if any.
+template <int Dim>
+JobCost cost_of(const SweepJob& job, double start) {
+  const Configuration<Dim> some = representative_particles<Dim>(job.parameters);
+  JobCost cost;
+  for (const StageCost& stage : stage_costs(job.parameters, some, start))
+    cost.preparation.add(stage);
+  if (!job.prepares_only) cost.run = run_cost(job.parameters, some);
+  return cost;
+}
+
+/// A state on file is taken to be as dense as the job wants it.
+double start_of(const SweepJob& job, const std::map<std::string, double>& density_of) {
+  if (!start_state(job.parameters.stages)) return 0;
+  const auto before = density_of.find(job.predecessor);
+  return before == density_of.end() ? job.parameters.system.packing_fraction : before->second;
+}
+
+/// Nothing of a job without a run.
+std::string number_of_run(double number) {
+  return number > 0 ? fmt::format("{:.2g}", number) : missing_cell;
+}
+
 }  // namespace
 
 std::string sweep_table(const std::vector<SweepJob>& jobs, const fs::path& folder) {
@@ -185,6 +244,36 @@ std::vector<std::string> sweep_changes(const std::vector<SweepJob>& jobs, const 
     sentences.push_back(
         fmt::format("no longer among the jobs of the parameter file: {}", fmt::join(ids, ", ")));
   return sentences;
+}
+
+std::string sweep_plan(const std::vector<SweepJob>& jobs, const fs::path& folder, int parallel) {
+  std::vector<Row> rows = {{"job", "stage", "prepare / s", "run / s", "events", "MB on disk"}};
+  std::map<std::string, double> density_of;
+  double left = 0, disk = 0;
+  bool is_foreseen = true;
+  for (const SweepJob& job : jobs) {
+    density_of[job.id] = job.parameters.system.packing_fraction;
+    const double start = start_of(job, density_of);
+    const JobCost cost =
+        job.parameters.system.dimension == 2 ? cost_of<2>(job, start) : cost_of<3>(job, start);
+    const JobStage stage = job_stage(folder / job.id);
+    if (stage != JobStage::done) {
+      left += cost.seconds();
+      disk += cost.run.disk_bytes;
+      is_foreseen = is_foreseen && cost.preparation.is_foreseen;
+    }
+    rows.push_back({job.id, name_of(stage),
+                    (cost.preparation.is_foreseen ? "" : "> ") +
+                        fmt::format("{:.2g}", cost.preparation.seconds),
+                    number_of_run(cost.run.seconds), number_of_run(cost.run.events),
+                    number_of_run(cost.run.disk_bytes / 1e6)});
+  }
+  const int at_a_time = std::max(parallel, 1);
+  return text_table(rows, 2) + fmt::format(
+                                   "{} jobs; what is left is expected to take {}{:.2g} s with {} "
+                                   "job{} at a time, and {:.3g} MB on disk\n",
+                                   jobs.size(), is_foreseen ? "" : "more than ", left / at_a_time,
+                                   at_a_time, at_a_time == 1 ? "" : "s", disk / 1e6);
 }
 
 }  // namespace vitrel

@@ -8,7 +8,7 @@
 #include "workflow/sweep/sweep_jobs.h"
 
 /// @file
-/// How far the jobs of a sweep are, and what they gave.
+/// What the jobs of a sweep will cost, how far they are, and what they gave.
 namespace vitrel {
 
 /// One row per job: its stage and results, "–" where there is none. Below them, why jobs failed; and if the
@@ -23,5 +23,11 @@ Json sweep_summary(const std::vector<SweepJob>& jobs, const std::filesystem::pat
 /// the folder that are no longer in the file.
 std::vector<std::string> sweep_changes(const std::vector<SweepJob>& jobs,
                                        const std::filesystem::path& folder);
+
+/// What a sweep would do, in lines for a person: a row for every job with what its preparation and its run are expected to
+/// cost (stage_cost.h, run_cost.h), how far it is, and the sum of what is left, with so many jobs at a time. Nothing is
+/// written.
+std::string sweep_plan(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder,
+                       int parallel);
 
 }  // namespace vitrel
