@@ -152,31 +152,29 @@ class CommandLine : public ProgramCommandLine {
   void add_prepare() {
     CLI::App& sub =
         add("prepare", "Make a first state and report how good it is.", prepare_command, prepare_);
-    sub.footer(exit_codes + overlap_code + resumed_code + ".");
-    add_parameter_file(sub, prepare_.source);
-    add_output(sub, prepare_.output,
-               "State file to write, with its quality report <state>.quality.json beside it")
-        ->required();
-    add_start(sub, prepare_.start);
-    sub.add_flag("--dry-run", prepare_.dry_run, "Print what would be done");
-    add_threads(sub, prepare_.threads, "Threads for Monte Carlo (1)");
-    add_wall_time(sub, prepare_.wall_time);
-    add_print(sub, prepare_.print);
+    add_work(sub, prepare_,
+             "State file to write, with its quality report <state>.quality.json beside it",
+             "Threads for Monte Carlo (1)");
   }
 
   void add_run() {
     CLI::App& sub =
         add("run", "Start or continue an event-driven run; without --from, prepare first.",
             run_command, run_);
+    add_work(sub, run_, "Trajectory to write, with its checkpoint beside it",
+             "Threads for the Brownian steps and for Monte Carlo in the preparation (1)");
+  }
+
+  void add_work(CLI::App& sub, PrepareOptions& options, const std::string& output,
+                const std::string& threads) {
     sub.footer(exit_codes + overlap_code + resumed_code + ".");
-    add_parameter_file(sub, run_.source);
-    add_output(sub, run_.output, "Trajectory to write, with its checkpoint beside it")->required();
-    add_start(sub, run_.start);
-    sub.add_flag("--dry-run", run_.dry_run, "Print what would be done");
-    add_threads(sub, run_.threads,
-                "Threads for the Brownian steps and for Monte Carlo in the preparation (1)");
-    add_wall_time(sub, run_.wall_time);
-    add_print(sub, run_.print);
+    add_parameter_file(sub, options.source);
+    add_output(sub, options.output, output)->required();
+    add_start(sub, options.start);
+    sub.add_flag("--dry-run", options.dry_run, "Print what would be done");
+    add_threads(sub, options.threads, threads);
+    add_wall_time(sub, options.wall_time);
+    add_print(sub, options.print);
   }
 
   void add_check() {

@@ -120,6 +120,12 @@ class Slopes {
   Eigen::MatrixXd covariance_;
 };
 
+/// Where the second half of a window begins, which goes from a point to the end.
+std::size_t middle_of(const Slopes& slopes, std::size_t begin) {
+  const std::vector<double>& time = slopes.curve().time;
+  return slopes.index(std::sqrt(time[begin] * time.back()));
+}
+
 /// The slopes of both halves of a window, from a point to the end.
 struct Halves {
   double change;  ///< later slope − earlier slope
@@ -128,10 +134,9 @@ struct Halves {
 };
 
 Halves halves(const Slopes& slopes, std::size_t begin) {
-  const std::vector<double>& time = slopes.curve().time;
-  const std::size_t middle = slopes.index(std::sqrt(time[begin] * time.back()));
+  const std::size_t middle = middle_of(slopes, begin);
   const Eigen::VectorXd earlier = slopes.coefficients(begin, middle);
-  const Eigen::VectorXd later = slopes.coefficients(middle, time.size());
+  const Eigen::VectorXd later = slopes.coefficients(middle, slopes.curve().time.size());
   const Eigen::VectorXd difference = later - earlier;
   return {slopes.value(difference), slopes.error(difference), slopes.value(later)};
 }
@@ -142,9 +147,8 @@ bool straight(const Halves& h) {
 
 /// Whether both halves of a window have two points, which a slope needs.
 bool has_halves(const Slopes& slopes, std::size_t begin) {
-  const std::vector<double>& time = slopes.curve().time;
-  const std::size_t middle = slopes.index(std::sqrt(time[begin] * time.back()));
-  return middle >= begin + 2 && time.size() >= middle + 2;
+  const std::size_t middle = middle_of(slopes, begin);
+  return middle >= begin + 2 && slopes.curve().time.size() >= middle + 2;
 }
 
 bool enough_points(const Slopes& slopes) {

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <type_traits>
 
-#include "core/contact/ellipse_gap.h"
+#include "core/contact/flying_pair.h"
 
 namespace vitrel {
 
@@ -16,54 +14,30 @@ namespace vitrel {
 /// with σ the size, γ the growth rate, h' = dh/dφ and ρ = h + h'' at size 1. Rotating a body by dθ is rotating n by
 /// −dθ, so that dh/dt = −ω h' and d²h/dt² = ω² h''.
 template <class B>
-class EllipsePairInFlight {
+class EllipsePairInFlight : public FlyingPair<EllipsePair> {
  public:
   using Axis = Vec2;
   using Gap = GapAlongAxis;
 
   /// If false, all sizes are 1 at compile time.
-  static constexpr bool grows = !std::is_same_v<B, Ellipse>;
+  static constexpr bool grows = vitrel::grows<B>;
 
   EllipsePairInFlight(const Flight<B>& one, const Flight<B>& two)
-      : d0_(two.pose.position - one.pose.position),
-        v_(two.motion.velocity - one.motion.velocity),
+      : FlyingPair(one, two),
         angle0_(one.pose.angle, two.pose.angle),
-        omega_(one.motion.angular_velocity, two.motion.angular_velocity),
-        size0_(size_of(one.body), size_of(two.body)),
-        growth_(growth_of(one.body), growth_of(two.body)) {
+        omega_(one.motion.angular_velocity, two.motion.angular_velocity) {
     const Ellipse& shape1 = shape_of(one.body);
     const Ellipse& shape2 = shape_of(two.body);
-    a_ = {shape1.a, shape2.a};
-    const SimdPair b(shape1.b, shape2.b);
-    pair_.size = size0_;
+    const SimdPair a(shape1.a, shape2.a), b(shape1.b, shape2.b);
     pair_.bb = b * b;
     pair_.aa_minus_bb = {shape1.aa_minus_bb(), shape2.aa_minus_bb()};
-    pair_.aabb = a_ * a_ * pair_.bb;
+    pair_.aabb = a * a * pair_.bb;
     max_rotation_term_ = omega_ * omega_ * pair_.aa_minus_bb / b;
   }
 
-  const Vec2& d0() const { return d0_; }
-  const Vec2& v() const { return v_; }
-  /// Sum of the circumradii at time 0, and its rate of growth.
-  double reach() const { return reduce(a_ * size0_); }
-  double reach_growth() const { return reduce(a_ * growth_); }
-  /// The time in which the growing bodies grow by the gap and their present circumradii together: their time
-  /// scale, infinite if none grows.
-  double doubling_time(double gap) const {
-    return (reduce(a_ * pair_.size) + gap) / reduce(a_ * max(growth_, 0));
-  }
-
-  /// A time in which no size changes by more than a thousandth.
-  double short_time() const {
-    return std::min(time_of_little_growth(pair_.size[0], growth_[0]),
-                    time_of_little_growth(pair_.size[1], growth_[1]));
-  }
-
-  double time() const { return time_; }
-
   /// Moves to `time`, with the axes computed from the angles.
   void start_at(double time) {
-    place_centres(time);
+    place_centres<grows>(time);
     axes_time_ = time;
     directions<SimdPair>(angle0_ + omega_ * time, axes_x_, axes_y_);
     pair_.ux = axes_x_;
@@ -74,7 +48,7 @@ class EllipsePairInFlight {
   void go_to(double time) {
     const SimdPair turn = omega_ * (time - axes_time_);
     if (any_of(abs(turn) > max_small_angle)) return start_at(time);
-    place_centres(time);
+    place_centres<grows>(time);
     SimdPair cosine, sine;
     small_angle_directions<SimdPair>(turn, cosine, sine);
     pair_.ux = cosine * axes_x_ - sine * axes_y_;
@@ -82,10 +56,7 @@ class EllipsePairInFlight {
   }
 
   Gap evaluate(const Axis& n) const { return gap_along<grows>(pair_, n); }
-  Axis initial_axis() const { return detail::initial_axis(pair_); }
-  auto find_separating_axis() const { return detail::find_separating_axis(pair_); }
   bool improve_axis(Axis& n, Gap& here) const { return detail::improve_axis(pair_, n, here); }
-  void polish_axis(Axis& n, const Gap& here) const { detail::polish_axis(pair_, n, here); }
   /// From centre 1 to its surface point with normal n.
   Vec2 arm1(const Axis& n) const {
     const Vec2 u(pair_.ux[0], pair_.uy[0]);
@@ -138,29 +109,12 @@ class EllipsePairInFlight {
   }
 
  private:
-  static const Ellipse& shape_of(const Ellipse& body) { return body; }
-  static const Ellipse& shape_of(const GrowingEllipse& body) { return body.shape; }
-  static double size_of(const Ellipse&) { return 1; }
-  static double size_of(const GrowingEllipse& body) { return body.size; }
-  static double growth_of(const Ellipse&) { return 0; }
-  static double growth_of(const GrowingEllipse& body) { return body.growth_rate; }
-
-  void place_centres(double time) {
-    time_ = time;
-    pair_.d = d0_ + v_ * time;
-    if constexpr (grows) pair_.size = size0_ + growth_ * time;
-  }
-
   SimdPair cross_term(const GapAlongAxis& g) const { return 2 * growth_ * omega_ * g.turning; }
 
-  Vec2 d0_, v_;
-  SimdPair angle0_, omega_, size0_, growth_;
-  SimdPair a_;
+  SimdPair angle0_, omega_;
   SimdPair max_rotation_term_;  // ω² (a² − b²)/b
-  double time_ = 0;
-  double axes_time_ = 0;  // time of axes_x_, axes_y_
+  double axes_time_ = 0;        // time of axes_x_, axes_y_
   SimdPair axes_x_, axes_y_;
-  EllipsePair pair_;  // at time_
 };
 
 }  // namespace vitrel

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
-#include "core/contact/ellipsoid_gap.h"
 #include "core/contact/ellipsoid_pair_rotation.h"
+#include "core/contact/flying_pair.h"
 #include "core/geometry/body.h"
 
 namespace vitrel {
@@ -17,7 +16,7 @@ namespace vitrel {
 ///
 /// with σ the size, γ the growth rate, and h and its derivatives at size 1.
 template <class B>
-class EllipsoidPairInFlight {
+class EllipsoidPairInFlight : public FlyingPair<EllipsoidPair> {
  public:
   using Axis = Axis3;
   struct Gap : GapAlongAxis3, SupportRates<SimdPair> {
@@ -25,40 +24,17 @@ class EllipsoidPairInFlight {
   };
 
   EllipsoidPairInFlight(const Flight<B>& one, const Flight<B>& two)
-      : d0_(two.pose.position - one.pose.position),
-        v_(two.motion.velocity - one.motion.velocity),
-        size0_(size_of(one.body), size_of(two.body)),
-        growth_(growth_of(one.body), growth_of(two.body)) {
-    place_body(0, one);
-    place_body(1, two);
+      : FlyingPair(one, two),
+        max_support_rate_(shape_of(one.body).max_support_rate(),
+                          shape_of(two.body).max_support_rate()) {
+    rotation_.place(0, shape_of(one.body), one);
+    rotation_.place(1, shape_of(two.body), two);
     rotation_.complete();
-    pair_.size = size0_;
   }
-
-  const Vec3& d0() const { return d0_; }
-  const Vec3& v() const { return v_; }
-  /// Sum of the circumradii at time 0, and its rate of growth.
-  double reach() const { return reduce(circumradius_ * size0_); }
-  double reach_growth() const { return reduce(circumradius_ * growth_); }
-  /// The time in which the growing bodies grow by the gap and their present circumradii together: their time
-  /// scale, infinite if none grows.
-  double doubling_time(double gap) const {
-    return (reduce(circumradius_ * pair_.size) + gap) / reduce(circumradius_ * max(growth_, 0));
-  }
-
-  /// A time in which no size changes by more than a thousandth.
-  double short_time() const {
-    return std::min(time_of_little_growth(pair_.size[0], growth_[0]),
-                    time_of_little_growth(pair_.size[1], growth_[1]));
-  }
-
-  double time() const { return time_; }
 
   /// Moves to `time`, always from time 0, so that rounding does not accumulate.
   void go_to(double time) {
-    time_ = time;
-    pair_.d = d0_ + v_ * time;
-    if constexpr (grows<B>) pair_.size = size0_ + growth_ * time;
+    place_centres<grows<B>>(time);
     rotation_.go_to(time);
     pair_.axes = rotation_.axes;
   }
@@ -72,14 +48,11 @@ class EllipsoidPairInFlight {
     rotation_.add_angular_acceleration(g, g, n);
     return g;
   }
-  Axis initial_axis() const { return detail::initial_axis(pair_); }
-  auto find_separating_axis() const { return detail::find_separating_axis(pair_); }
   bool improve_axis(Axis& n, Gap& here) const {
     if (!detail::improve_axis(pair_, n, here)) return false;
     here = evaluate(n);
     return true;
   }
-  void polish_axis(Axis& n, const Gap& here) const { detail::polish_axis(pair_, n, here); }
 
   /// From centre 1 to its surface point with normal n.
   Vec3 arm1(const Axis& n) const {
@@ -126,31 +99,8 @@ class EllipsoidPairInFlight {
   }
 
  private:
-  static const Ellipsoid& shape_of(const Ellipsoid& body) { return body; }
-  static const Ellipsoid& shape_of(const GrowingEllipsoid& body) { return body.shape; }
-  static const Ellipsoid& shape_of(const TumblingEllipsoid& body) { return body.shape; }
-  static double size_of(const B& body) {
-    if constexpr (grows<B>) return body.size;
-    return 1;
-  }
-  static double growth_of(const B& body) {
-    if constexpr (grows<B>) return body.growth_rate;
-    return 0;
-  }
-
-  void place_body(int lane, const Flight<B>& flight) {
-    const Ellipsoid& shape = shape_of(flight.body);
-    rotation_.place(lane, shape, flight);
-    circumradius_.set(lane, shape.circumradius());
-    max_support_rate_.set(lane, shape.max_support_rate());
-  }
-
-  Vec3 d0_, v_;
-  SimdPair size0_, growth_;
-  SimdPair circumradius_, max_support_rate_;
+  SimdPair max_support_rate_;
   std::conditional_t<tumbles<B>, detail::TumblingRotation, detail::UniformRotation> rotation_;
-  double time_ = 0;
-  EllipsoidPair pair_;  // at time_
 };
 
 }  // namespace vitrel

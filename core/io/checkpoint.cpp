@@ -175,17 +175,20 @@ void read_rows(const h5::Group& group, const std::string& name, std::vector<Item
     std::memcpy(static_cast<void*>(items.data()), values.data(), items.size() * sizeof(Item));
 }
 
-void write_orientations(h5::Group& group, const Configuration2& configuration) {
-  write_rows<double>(group, "angle", configuration.angle);
-}
-void write_orientations(h5::Group& group, const Configuration3& configuration) {
-  write_rows<double>(group, "orientation", configuration.orientation);
-}
-void read_orientations(const h5::Group& group, Configuration2& configuration) {
-  read_rows<double>(group, "angle", configuration.angle);
-}
-void read_orientations(const h5::Group& group, Configuration3& configuration) {
-  read_rows<double>(group, "orientation", configuration.orientation);
+/// Calls visit(type of number, name, items) for all that particles have one of each.
+template <int Dim>
+void each_array(auto& configuration, auto visit) {
+  visit(double(), "position", configuration.position);
+  visit(std::int32_t(), "image", configuration.image);
+  if constexpr (Dim == 2)
+    visit(double(), "angle", configuration.angle);
+  else
+    visit(double(), "orientation", configuration.orientation);
+  visit(double(), "velocity", configuration.velocity);
+  visit(double(), "angular_velocity", configuration.angular_velocity);
+  visit(double(), "semiaxes", configuration.shape);
+  visit(double(), "mass", configuration.mass);
+  visit(std::int32_t(), "species", configuration.species);
 }
 
 /// Contacts of soft particles, as rows of doubles, which represent all particle numbers exactly.
@@ -239,14 +242,9 @@ void write_configuration(h5::Group group, const Configuration<Dim>& configuratio
   const Vec<Dim>& lengths = configuration.box.lengths();
   group.create_array<double>("box", {Dim}, {lengths.data(), Dim});
   group.create_array<double>("time", {}, {&configuration.time, 1});
-  write_rows<double>(group, "position", configuration.position);
-  write_rows<std::int32_t>(group, "image", configuration.image);
-  write_orientations(group, configuration);
-  write_rows<double>(group, "velocity", configuration.velocity);
-  write_rows<double>(group, "angular_velocity", configuration.angular_velocity);
-  write_rows<double>(group, "semiaxes", configuration.shape);
-  write_rows<double>(group, "mass", configuration.mass);
-  write_rows<std::int32_t>(group, "species", configuration.species);
+  each_array<Dim>(configuration, [&](auto number, const char* name, const auto& items) {
+    write_rows<decltype(number)>(group, name, items);
+  });
   write_text(group, "species_names", joined(configuration.species_names));
   write_contacts(group, configuration);
 }
@@ -257,14 +255,9 @@ Configuration<Dim> read_configuration(const fs::path& path, const h5::Group& gro
   Configuration<Dim> configuration;
   configuration.box = PeriodicBox<Dim>(Vec<Dim>(lengths.data()));
   configuration.time = group.dataset("time").read<double>().at(0);
-  read_rows<double>(group, "position", configuration.position);
-  read_rows<std::int32_t>(group, "image", configuration.image);
-  read_orientations(group, configuration);
-  read_rows<double>(group, "velocity", configuration.velocity);
-  read_rows<double>(group, "angular_velocity", configuration.angular_velocity);
-  read_rows<double>(group, "semiaxes", configuration.shape);
-  read_rows<double>(group, "mass", configuration.mass);
-  read_rows<std::int32_t>(group, "species", configuration.species);
+  each_array<Dim>(configuration, [&](auto number, const char* name, auto& items) {
+    read_rows<decltype(number)>(group, name, items);
+  });
   configuration.species_names = split(read_text(group, "species_names"));
   read_contacts(path, group, configuration);
   return configuration;

@@ -14,28 +14,19 @@ namespace {
 
 static_assert(std::is_same_v<Id, hid_t>);
 
-/// HDF5's name of T in memory.
+/// HDF5's names of a type of number: in memory, and in the file.
+struct TypeNames {
+  Id native, stored;
+};
 template <class T>
-Id native_type() {
-  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
-  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
-  if constexpr (std::is_same_v<T, std::int16_t>) return H5T_NATIVE_INT16;
-  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
-  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
-  if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_NATIVE_UINT64;
-  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
-}
-
-/// HDF5's name of T in the file.
-template <class T>
-Id stored_type() {
-  if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
-  if constexpr (std::is_same_v<T, float>) return H5T_IEEE_F32LE;
-  if constexpr (std::is_same_v<T, std::int16_t>) return H5T_STD_I16LE;
-  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_STD_I32LE;
-  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_STD_I64LE;
-  if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_STD_U64LE;
-  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_STD_U8LE;
+TypeNames type_names() {
+  if constexpr (std::is_same_v<T, double>) return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE};
+  if constexpr (std::is_same_v<T, float>) return {H5T_NATIVE_FLOAT, H5T_IEEE_F32LE};
+  if constexpr (std::is_same_v<T, std::int16_t>) return {H5T_NATIVE_INT16, H5T_STD_I16LE};
+  if constexpr (std::is_same_v<T, std::int32_t>) return {H5T_NATIVE_INT32, H5T_STD_I32LE};
+  if constexpr (std::is_same_v<T, std::int64_t>) return {H5T_NATIVE_INT64, H5T_STD_I64LE};
+  if constexpr (std::is_same_v<T, std::uint64_t>) return {H5T_NATIVE_UINT64, H5T_STD_U64LE};
+  if constexpr (std::is_same_v<T, std::uint8_t>) return {H5T_NATIVE_UINT8, H5T_STD_U8LE};
 }
 
 /// What stands for numbers that were never written: HDF5 takes a chunk that it does not find, because its index is
@@ -120,7 +111,8 @@ void Object::set_attribute(const std::string& name, const std::string& text) {
 
 template <class T>
 void Object::set_attribute(const std::string& name, std::span<const T> values) {
-  write_attribute(name, stored_type<T>(), native_type<T>(), values.size(), values.data());
+  write_attribute(name, type_names<T>().stored, type_names<T>().native, values.size(),
+                  values.data());
 }
 
 namespace {
@@ -172,7 +164,7 @@ T Object::number_attribute(const std::string& name) const {
   const Handle attribute(check(H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT)));
   const Handle space(check(H5Aget_space(attribute.id())));
   std::vector<T> values(std::max<hssize_t>(1, check(H5Sget_simple_extent_npoints(space.id()))));
-  check(H5Aread(attribute.id(), native_type<T>(), values.data()));
+  check(H5Aread(attribute.id(), type_names<T>().native, values.data()));
   return values.front();
 }
 
@@ -191,7 +183,8 @@ std::vector<T> Dataset::read() const {
   if (!values.empty() && !extent.empty())
     require_checksums(*file_, handle_, name_, extent, 0, extent[0] - 1);
   const Check check(*file_, "read", name_);
-  check(H5Dread(handle_.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+  check(
+      H5Dread(handle_.id(), type_names<T>().native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   return values;
 }
 
@@ -199,7 +192,8 @@ template <class T>
 void Dataset::write(std::span<const T> values) {
   if (values.size() != elements(shape())) file_->fail("write", name_, "wrong number of values");
   const Check check(*file_, "write", name_);
-  check(H5Dwrite(handle_.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+  check(
+      H5Dwrite(handle_.id(), type_names<T>().native, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
 }
 
 std::string Dataset::read_text() const {
@@ -261,8 +255,8 @@ template <class T>
 void Dataset::write_frames(std::uint64_t first, std::uint64_t count, std::span<const T> values) {
   const FrameSpaces spaces = frame_spaces(first, count, values.size());
   const Check check(*file_, "write", name_);
-  check(H5Dwrite(handle_.id(), native_type<T>(), spaces.memory.id(), spaces.file.id(), H5P_DEFAULT,
-                 values.data()));
+  check(H5Dwrite(handle_.id(), type_names<T>().native, spaces.memory.id(), spaces.file.id(),
+                 H5P_DEFAULT, values.data()));
 }
 
 template <class T>
@@ -270,8 +264,8 @@ void Dataset::read_frames(std::uint64_t first, std::uint64_t count, std::span<T>
   const FrameSpaces spaces = frame_spaces(first, count, values.size());
   require_checksums(*file_, handle_, name_, shape(), first, first + count - 1);
   const Check check(*file_, "read", name_);
-  check(H5Dread(handle_.id(), native_type<T>(), spaces.memory.id(), spaces.file.id(), H5P_DEFAULT,
-                values.data()));
+  check(H5Dread(handle_.id(), type_names<T>().native, spaces.memory.id(), spaces.file.id(),
+                H5P_DEFAULT, values.data()));
 }
 
 std::vector<std::string> Dataset::enumeration() const {
@@ -362,7 +356,7 @@ namespace {
 
 /// Checksums exist for chunks only; one holds all of an array that is not huge.
 template <class T>
-Handle with_checksum(const Check& check, const Shape& shape, Id type = native_type<T>()) {
+Handle with_checksum(const Check& check, const Shape& shape, Id type = type_names<T>().native) {
   Handle properties(check(H5Pcreate(H5P_DATASET_CREATE)));
   constexpr std::uint64_t largest = std::uint64_t{1} << 30;  // bytes; HDF5 allows 4 GiB
   const std::uint64_t bytes = elements(shape) * sizeof(T);
@@ -381,7 +375,7 @@ template <class T>
 Dataset Group::create_array(const std::string& name, const Shape& shape,
                             std::span<const T> values) {
   const Check check(*file_, "create dataset", path_of(name));
-  Dataset dataset = create(check, name, stored_type<T>(), create_space(check, shape),
+  Dataset dataset = create(check, name, type_names<T>().stored, create_space(check, shape),
                            with_checksum<T>(check, shape));
   dataset.write(values);
   return dataset;
@@ -426,8 +420,8 @@ Dataset Group::create_series(const std::string& name, const Shape& frame_shape,
   const Handle properties(check(H5Pcreate(H5P_DATASET_CREATE)));
   check(H5Pset_chunk(properties.id(), rank, sizes(chunk)));
   check(H5Pset_fletcher32(properties.id()));
-  mark_missing<T>(check, properties, native_type<T>());
-  return create(check, name, stored_type<T>(), space, properties);
+  mark_missing<T>(check, properties, type_names<T>().native);
+  return create(check, name, type_names<T>().stored, space, properties);
 }
 
 void Group::remove(const std::string& name) {
