@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "edmd/collision_rule.h"
-#include "edmd/correction_move.h"
 #include "edmd/engine.h"
 #include "edmd/event.h"
 #include "edmd/inelastic_collapse.h"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "edmd/driving.h"
+#include "edmd/brownian.h"
 #include "edmd/sampling.h"
 #include "edmd/time_text.h"
 

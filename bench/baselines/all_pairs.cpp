@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/geometry/free_flight.h"
 #include "core/tolerances.h"
-#include "edmd/correction_move.h"
+#include "edmd/collision_rule.h"
 
 namespace vitrel::bench {
 namespace {

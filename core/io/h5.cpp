@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "core/io/h5_open_file.h"
-#include "core/io/h5_storage.h"
 
 namespace vitrel::h5 {
 namespace {

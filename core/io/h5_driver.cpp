@@ -1,10 +1,11 @@
-#include "core/io/h5_driver.h"
+#include <hdf5.h>
 
 #include <algorithm>
 #include <functional>
 #include <new>
 
 #include "core/error.h"
+#include "core/io/h5_open_file.h"
 
 namespace vitrel::h5 {
 namespace {

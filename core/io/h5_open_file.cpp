@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/io/h5_driver.h"
 
 namespace vitrel::h5 {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/io/h5_storage.h"
+#include "core/io/h5_open_file.h"
 
 #include <hdf5.h>
 

@@ -5,7 +5,7 @@
 #include "core/contact/first_contact.h"
 #include "core/geometry/free_flight.h"
 #include "core/random/stream.h"
-#include "edmd/correction_move.h"
+#include "edmd/collision_rule.h"
 
 namespace vitrel {
 namespace {

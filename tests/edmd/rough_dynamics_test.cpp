@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/state/check.h"
-#include "edmd/driving.h"
+#include "edmd/brownian.h"
 #include "edmd/run.h"
 #include "tests/support/motion.h"
 #include "tests/support/scenes.h"
