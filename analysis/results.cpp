@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/io/atomic_file.h"
@@ -146,6 +147,19 @@ void rename_former(Table& table) {
 const Column* Table::find(const std::string& column) const {
   const auto found = std::ranges::find(columns, column, &Column::name);
   return found == columns.end() ? nullptr : &*found;
+}
+
+void add_row(Table& table, const std::vector<Entry>& row) {
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    table.columns[k].value.push_back(row[k].value);
+    if (row[k].error) table.columns[k].error.push_back(*row[k].error);
+  }
+}
+
+Column index_column(std::size_t count) {
+  Column column{"index", "1", std::vector<double>(count)};
+  std::iota(column.value.begin(), column.value.end(), 1);
+  return column;
 }
 
 const Table* Results::find(const std::string& table) const {

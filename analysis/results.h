@@ -31,6 +31,20 @@ struct Table {
   const Column* find(const std::string& column) const;
 };
 
+/// A value, and its error if the column has errors.
+struct Entry {
+  Entry(double number) : value(number) {}
+  Entry(double number, double its_error) : value(number), error(its_error) {}
+
+  double value;
+  std::optional<double> error;
+};
+/// Adds an entry to every column.
+void add_row(Table& table, const std::vector<Entry>& row);
+
+/// The column "index" of the numbers 1, 2 … `count`.
+Column index_column(std::size_t count);
+
 struct Results {
   std::vector<Table> tables;
   /// Where they come from: name (letters, digits and underscores) and text, in this order.

@@ -1,15 +1,12 @@
-#include "app/command_line.h"
 
 #include <fmt/format.h>
 
 #include <string_view>
 
 #include "analysis/observables/observable.h"
-#include "app/commands/bench.h"
 #include "app/commands/commands.h"
-#include "app/commands/pair.h"
-#include "app/terminal/completion.h"
 #include "app/terminal/program_command_line.h"
+#include "app/terminal/program_description.h"
 #include "core/error.h"
 #include "core/io/foreign/foreign_formats.h"
 #include "workflow/configuration/sections.h"

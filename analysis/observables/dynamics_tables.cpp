@@ -17,6 +17,12 @@ Column column(const std::string& name, const char* unit, const Correlation& corr
   return {name, unit, correlation.value, correlation.error};
 }
 
+/// A column for every function, whose number, from 1, stands for {}.
+void add_numbered(Table& table, const char* name, const std::vector<Correlation>& functions) {
+  for (std::size_t k = 0; k < functions.size(); ++k)
+    table.columns.push_back(column(fmt::format(fmt::runtime(name), k + 1), "1", functions[k]));
+}
+
 std::vector<double> numbers(const std::vector<std::size_t>& counts) {
   return {counts.begin(), counts.end()};
 }
@@ -137,8 +143,7 @@ Table scattering_table(const Displacements& found, const DisplacementGroup& grou
                   "averaged over the directions of q; q_k in table wave_numbers.",
                   group.particles, group.name),
       {time_column(found.lag)}};
-  for (std::size_t k = 0; k < group.self_scattering.size(); ++k)
-    table.columns.push_back(column(fmt::format("fs_{}", k + 1), "1", group.self_scattering[k]));
+  add_numbered(table, "fs_{}", group.self_scattering);
   return table;
 }
 
@@ -217,8 +222,7 @@ Table cage_relative_table(const CageRelative& found, double overlap_distance) {
           "moved by less than {:g} and its four-point susceptibility.",
           overlap_distance),
       {time_column(found.lag), column("msd", "length^2", found.square)}};
-  for (std::size_t k = 0; k < found.self_scattering.size(); ++k)
-    table.columns.push_back(column(fmt::format("fs_{}", k + 1), "1", found.self_scattering[k]));
+  add_numbered(table, "fs_{}", found.self_scattering);
   table.columns.push_back(column("overlap", "1", found.overlap));
   table.columns.push_back(column("chi_4", "1", found.susceptibility));
   table.columns.push_back({"origins", "1", numbers(found.origins)});
@@ -308,15 +312,10 @@ Table waiting_time_table(const std::vector<AgedMotion>& ageing) {
   Table table{"waiting_times",
               "Waiting times t_w of the ageing, and the length over which orientations were "
               "correlated then: beyond it <cos 2(difference of two angles)> stays below 1/e.",
-              {}};
-  Column index{"index", "1"}, time{"waiting_time", "time"}, length{"nematic_length", "length"};
-  for (const AgedMotion& aged : ageing) {
-    index.value.push_back(static_cast<double>(index.value.size() + 1));
-    time.value.push_back(aged.waiting_time);
-    length.value.push_back(aged.nematic_length);
-  }
-  table.columns = {std::move(index), std::move(time)};
-  if (!std::isnan(length.value.front())) table.columns.push_back(std::move(length));
+              {{"index", "1"}, {"waiting_time", "time"}, {"nematic_length", "length"}}};
+  for (const AgedMotion& aged : ageing)
+    add_row(table, {static_cast<double>(table.rows() + 1), aged.waiting_time, aged.nematic_length});
+  if (std::isnan(ageing.front().nematic_length)) table.columns.pop_back();
   return table;
 }
 
@@ -343,16 +342,13 @@ Table wave_number_table(const RunDynamics& dynamics) {
       "Wave numbers q_k of the scattering functions; of the collective ones mean length and "
       "number of the wave vectors of the box.",
       {}};
-  Column index{"index", "1"}, shell{"q_collective", "1/length"}, modes{"modes", "1"};
   const std::vector<double>& wave_numbers = dynamics.displacements.wave_numbers;
-  for (std::size_t k = 0; k < wave_numbers.size(); ++k)
-    index.value.push_back(static_cast<double>(k + 1));
-  for (std::size_t k = 0; k < dynamics.collective.modes.size(); ++k) {
-    shell.value.push_back(dynamics.collective.wave_numbers[k]);
-    modes.value.push_back(static_cast<double>(dynamics.collective.modes[k]));
-  }
-  table.columns = {index, {"q", "1/length", wave_numbers}};
-  if (!modes.value.empty()) table.columns.insert(table.columns.end(), {shell, modes});
+  const CollectiveScattering& collective = dynamics.collective;
+  table.columns = {index_column(wave_numbers.size()), {"q", "1/length", wave_numbers}};
+  if (!collective.modes.empty())
+    table.columns.insert(table.columns.end(),
+                         {{"q_collective", "1/length", collective.wave_numbers},
+                          {"modes", "1", numbers(collective.modes)}});
   return table;
 }
 
@@ -361,8 +357,7 @@ Table collective_table(const CollectiveScattering& found) {
               "Collective intermediate scattering functions F(q_k, t) of all particles, not "
               "normalised: F(q, 0) = S(q); q_k in table wave_numbers, column q_collective.",
               {time_column(found.lag)}};
-  for (std::size_t k = 0; k < found.scattering.size(); ++k)
-    table.columns.push_back(column(fmt::format("f_{}", k + 1), "1", found.scattering[k]));
+  add_numbered(table, "f_{}", found.scattering);
   return table;
 }
 

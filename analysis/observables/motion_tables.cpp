@@ -137,11 +137,9 @@ Table lag_table(const std::vector<Lag>& lags) {
   Table table{"lag_times",
               "Time differences t_k of the tables with a column for each, and their origins.",
               {{"index", "1"}, {"time", "time"}, {"origins", "1"}}};
-  for (const Lag& lag : lags) {
-    table.columns[0].value.push_back(static_cast<double>(table.rows() + 1));
-    table.columns[1].value.push_back(lag.time);
-    table.columns[2].value.push_back(static_cast<double>(lag.origins));
-  }
+  for (const Lag& lag : lags)
+    add_row(table,
+            {static_cast<double>(table.rows() + 1), lag.time, static_cast<double>(lag.origins)});
   return table;
 }
 

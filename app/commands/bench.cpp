@@ -1,4 +1,4 @@
-#include "app/commands/bench.h"
+#include "app/commands/commands.h"
 
 #include <unistd.h>
 

@@ -1,11 +1,10 @@
-#include "app/commands/pair.h"
+#include "app/commands/commands.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/commands/bench.h"
 #include "app/commands/common.h"
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"

@@ -1,4 +1,4 @@
-#include "app/terminal/manual_page.h"
+#include "app/terminal/program_description.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

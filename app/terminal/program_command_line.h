@@ -15,7 +15,6 @@
 
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/help.h"
-#include "app/terminal/manual_page.h"
 #include "app/terminal/program_description.h"
 #include "app/terminal/session.h"
 #include "app/terminal/validators.h"

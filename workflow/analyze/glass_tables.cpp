@@ -22,23 +22,6 @@ double number(Code code) {
   return static_cast<double>(static_cast<int>(code));
 }
 
-/// A value, and its error if the column has errors.
-struct Entry {
-  Entry(double number) : value(number) {}
-  Entry(double number, double its_error) : value(number), error(its_error) {}
-
-  double value;
-  std::optional<double> error;
-};
-
-/// An entry for every column.
-void add_row(Table& table, const std::vector<Entry>& row) {
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    table.columns[k].value.push_back(row[k].value);
-    if (row[k].error) table.columns[k].error.push_back(*row[k].error);
-  }
-}
-
 constexpr const char* kinds_text =
     "kind: of tau_alpha (translation) or tau_2 (rotation; in the nematic of its connected part)";
 

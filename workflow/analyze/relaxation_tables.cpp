@@ -65,18 +65,10 @@ class RelaxationRows {
     if (!time.reason.empty())
       results_.provenance.emplace_back(fmt::format("relaxation_times_{}", table_.rows()),
                                        time.reason);
-    const double row[] = {static_cast<double>(group),
-                          static_cast<double>(kind),
-                          parameter,
-                          time.value,
-                          time.least,
-                          time.most};
-    for (std::size_t k = 0; k < table_.columns.size(); ++k)
-      table_.columns[k].value.push_back(row[k]);
-    table_.columns[tau_].error.push_back(time.error);
+    add_row(table_, {static_cast<double>(group), static_cast<double>(kind), parameter,
+                     Entry(time.value, time.error), time.least, time.most});
   }
 
-  static constexpr std::size_t tau_ = 3;
   const Displacements& found_;
   Results& results_;
   Table table_ = empty_table();

@@ -36,11 +36,9 @@ Table correlation_table(CorrelatedGroup group) {
 }
 
 Table wave_number_table(const std::vector<double>& wave_numbers) {
-  std::vector<double> index;
-  for (std::size_t k = 1; k <= wave_numbers.size(); ++k) index.push_back(static_cast<double>(k));
   return {"wave_numbers",
           "Wave numbers q_k of the self scattering functions fs_k.",
-          {{"index", "1", std::move(index)}, {"q", "1/length", wave_numbers}}};
+          {index_column(wave_numbers.size()), {"q", "1/length", wave_numbers}}};
 }
 
 double relaxation_of(const CorrelatedGroup& group, const std::string& column) {
