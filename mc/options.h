@@ -65,7 +65,7 @@ struct SamplingOptions {
   Moves moves = Moves::chains;
   ExchangeOptions exchanges = {};
   int threads = 1;                   ///< of local moves; the result does not depend on it
-  std::uint64_t decorrelations = 0;  ///< (decorrelation_count.h); 0: not counted
+  std::uint64_t decorrelations = 0;  ///< (sampling.h); 0: not counted
 };
 
 }  // namespace vitrel

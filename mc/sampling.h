@@ -1,15 +1,26 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
-#include "mc/decorrelation_count.h"
 #include "mc/event_chain.h"
 #include "mc/options.h"
 #include "mc/sweep_state.h"
 
 namespace vitrel {
+
+/// Of counting how often a sampled configuration has decorrelated: places, orientations and sizes, each place by place
+/// (place_correlation.h), have all fallen to 1/e at some time since the first configuration. Then the next configuration
+/// is the first one. They are compared after numbers of sweeps that grow by a tenth. A plain value, together with the configuration sufficient to go on counting.
+struct DecorrelationState {
+  std::uint64_t count = 0;
+  // Since the first of the present configurations:
+  bool places = false, orientations = false, sizes = false;  ///< these have decorrelated
+  std::uint64_t begin = 0, next = 0;  ///< sweeps at it, and at the next comparison
+  std::vector<double> first;          ///< position, image and orientation of every particle
+};
 
 /// The state of a sampling; each kind of moves uses its own.
 struct SamplingState {

@@ -13,9 +13,8 @@
 #include "core/io/provenance.h"
 #include "edmd/soft/restitution_table.h"
 #include "workflow/analyze/analyze.h"
-#include "workflow/report/impact_figures.h"
 #include "workflow/report/page.h"
-#include "workflow/report/path_figures.h"
+#include "workflow/report/pair_figures.h"
 #include "workflow/rules.h"
 
 namespace vitrel {

@@ -8,8 +8,7 @@
 #include "core/special_values.h"
 #include "mc/insertion.h"
 #include "tests/support/report_example.h"
-#include "workflow/report/impact_figures.h"
-#include "workflow/report/path_figures.h"
+#include "workflow/report/pair_figures.h"
 #include "workflow/report/state_page.h"
 
 // write_pages <folder>: the pages that the browser opens, from made-up results.

@@ -9,8 +9,7 @@
 #include "core/special_values.h"
 #include "edmd/soft/linear_dashpot.h"
 #include "edmd/soft/viscoelastic.h"
-#include "workflow/report/impact_figures.h"
-#include "workflow/report/path_figures.h"
+#include "workflow/report/pair_figures.h"
 
 namespace vitrel {
 namespace {

@@ -50,19 +50,57 @@ constexpr std::uint8_t type_number() {
 /// index entry per chunk.
 class GsdFile {
  public:
-  explicit GsdFile(const std::filesystem::path& path);
+  explicit GsdFile(const std::filesystem::path& path) : file_(path) {
+    header_.magic = gsd::magic;
+    header_.version = 2u << 16;  // versions are major · 2¹⁶ + minor
+    header_.schema_version = (1u << 16) + 4;
+    ("vitrel " + program_version())
+        .copy(header_.application.data(), header_.application.size() - 1);
+    std::string_view("hoomd").copy(header_.schema.data(), header_.schema.size() - 1);
+    file_.write(
+        bytes_of(std::span<const gsd::Header>(&header_, 1)));  // its place; the rest by close
+  }
 
   /// Adds an array of `columns` numbers per row to the frame. Every frame writes its names in the same order, each at
   /// most once; some may be left out.
   template <class T>
-  void write(const std::string& name, std::span<const T> values, std::uint32_t columns = 1);
+  void write(const std::string& name, std::span<const T> values, std::uint32_t columns = 1) {
+    const std::uint16_t number = number_of(name);
+    assert(index_.empty() || index_.back().frame < frame_ || index_.back().name < number);
+    index_.push_back({frame_, values.size() / columns, static_cast<std::int64_t>(file_.size()),
+                      columns, number, type_number<T>(), 0});
+    file_.write(bytes_of(values));
+  }
   void end_frame() { ++frame_; }
-  void close();
+  void close() {
+    write_names();
+    write_index();
+    file_.write_at_start(bytes_of(std::span<const gsd::Header>(&header_, 1)));
+    file_.close();
+  }
 
  private:
-  std::uint16_t number_of(const std::string& name);
-  void write_names();
-  void write_index();
+  std::uint16_t number_of(const std::string& name) {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    const auto number = static_cast<std::uint16_t>(found - names_.begin());
+    if (found == names_.end()) names_.push_back(name);
+    return number;
+  }
+  void write_names() {
+    std::string block;
+    for (const std::string& name : names_) block += name + '\0';
+    // One zero byte more ends the list.
+    header_.names_units = block.size() / gsd::names_unit + 1;
+    header_.names_location = file_.size();
+    block.resize(header_.names_units * gsd::names_unit);
+    file_.write(block);
+  }
+  void write_index() {
+    index_.push_back({});  // ends the list
+    header_.index_entries = index_.size();
+    header_.index_location = file_.size();
+    file_.write(bytes_of(std::span<const gsd::Entry>(index_)));
+  }
 
   OutputFile file_;
   gsd::Header header_{};
@@ -70,55 +108,6 @@ class GsdFile {
   std::vector<gsd::Entry> index_;
   std::uint64_t frame_ = 0;
 };
-
-GsdFile::GsdFile(const std::filesystem::path& path) : file_(path) {
-  header_.magic = gsd::magic;
-  header_.version = 2u << 16;  // versions are major · 2¹⁶ + minor
-  header_.schema_version = (1u << 16) + 4;
-  ("vitrel " + program_version()).copy(header_.application.data(), header_.application.size() - 1);
-  std::string_view("hoomd").copy(header_.schema.data(), header_.schema.size() - 1);
-  file_.write(bytes_of(std::span<const gsd::Header>(&header_, 1)));  // its place; the rest by close
-}
-
-template <class T>
-void GsdFile::write(const std::string& name, std::span<const T> values, std::uint32_t columns) {
-  const std::uint16_t number = number_of(name);
-  assert(index_.empty() || index_.back().frame < frame_ || index_.back().name < number);
-  index_.push_back({frame_, values.size() / columns, static_cast<std::int64_t>(file_.size()),
-                    columns, number, type_number<T>(), 0});
-  file_.write(bytes_of(values));
-}
-
-std::uint16_t GsdFile::number_of(const std::string& name) {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  const auto number = static_cast<std::uint16_t>(found - names_.begin());
-  if (found == names_.end()) names_.push_back(name);
-  return number;
-}
-
-void GsdFile::write_names() {
-  std::string block;
-  for (const std::string& name : names_) block += name + '\0';
-  // One zero byte more ends the list.
-  header_.names_units = block.size() / gsd::names_unit + 1;
-  header_.names_location = file_.size();
-  block.resize(header_.names_units * gsd::names_unit);
-  file_.write(block);
-}
-
-void GsdFile::write_index() {
-  index_.push_back({});  // ends the list
-  header_.index_entries = index_.size();
-  header_.index_location = file_.size();
-  file_.write(bytes_of(std::span<const gsd::Entry>(index_)));
-}
-
-void GsdFile::close() {
-  write_names();
-  write_index();
-  file_.write_at_start(bytes_of(std::span<const gsd::Header>(&header_, 1)));
-  file_.close();
-}
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -202,121 +191,102 @@ template <int Dim>
 class GsdSink final : public FrameSink<Dim> {
  public:
   GsdSink(const std::filesystem::path& path, StoredMotion motion) : file_(path), motion_(motion) {}
-  void write(const StoredFrame<Dim>& frame) override;
+  void write(const StoredFrame<Dim>& frame) override {
+    const Configuration<Dim>& configuration = frame.configuration;
+    const auto step = static_cast<std::uint64_t>(frame.step);
+    std::array<float, 6> box{};
+    for (int k = 0; k < Dim; ++k) box[k] = rounded_up(configuration.box.lengths()[k]);
+    std::vector<float> positions, orientations;
+    std::vector<std::int32_t> images;
+    for (std::size_t i = 0; i < configuration.size(); ++i) {
+      for (int k = 0; k < 3; ++k)
+        positions.push_back(k < Dim ? rounded_inside(configuration.position[i][k], box[k]) : 0);
+      const Shift<3> image = in_space(configuration.image[i]);
+      images.insert(images.end(), image.begin(), image.end());
+      append(orientations, orientation_in_space(configuration, i));
+    }
+    file_.write<std::uint64_t>("configuration/step", {&step, 1});
+    file_.write<float>("configuration/box", box);
+    if (!has_fixed_) write_fixed(configuration);
+    file_.write<float>("particles/position", positions, 3);
+    file_.write<float>("particles/orientation", orientations, 4);
+    file_.write<std::int32_t>("particles/image", images, 3);
+    write_motion(configuration);
+    file_.write<double>("log/time", {&configuration.time, 1});
+    file_.end_frame();
+  }
   void close() override { file_.close(); }
 
  private:
-  void write_fixed(const Configuration<Dim>& configuration);
-  void write_types(const Configuration<Dim>& configuration);
+  /// What the first frame says holds for all.
+  void write_fixed(const Configuration<Dim>& configuration) {
+    const std::uint8_t dimensions = Dim;
+    const auto n = static_cast<std::uint32_t>(configuration.size());
+    std::vector<float> masses, inertias;
+    for (std::size_t i = 0; i < n; ++i) {
+      masses.push_back(static_cast<float>(configuration.mass[i]));
+      append(inertias, modelled_inertia(configuration, i));
+    }
+    file_.write<std::uint8_t>("configuration/dimensions", {&dimensions, 1});
+    file_.write<std::uint32_t>("particles/N", {&n, 1});
+    write_types(configuration);
+    file_.write<float>("particles/mass", masses);
+    file_.write<float>("particles/moment_inertia", inertias, 3);
+    has_fixed_ = true;
+  }
+  void write_types(const Configuration<Dim>& configuration) {
+    const std::vector<CommonShape> common = shapes_of_species(configuration);
+    std::vector<std::string> shapes;
+    for (const CommonShape& shape : common) shapes.push_back(shape_text<Dim>(shape));
+    write_texts("particles/types", configuration.species_names);
+    file_.write<std::uint32_t>(
+        "particles/typeid",
+        std::vector<std::uint32_t>(configuration.species.begin(), configuration.species.end()));
+    write_texts("particles/type_shapes", shapes);
+    write_own_shapes(configuration, common);
+  }
+  /// Writes the sizes of particles that differ within their species: diameters if all such particles are round, else
+  /// semi-axes.
   void write_own_shapes(const Configuration<Dim>& configuration,
-                        const std::vector<CommonShape>& common);
-  void write_texts(const std::string& name, const std::vector<std::string>& texts);
-  void write_motion(const Configuration<Dim>& configuration);
+                        const std::vector<CommonShape>& common) {
+    bool some_round = false, some_not = false;
+    std::vector<float> diameters;
+    std::vector<double> semi_axes;
+    for (std::size_t i = 0; i < configuration.size(); ++i) {
+      const Vec3 axes = semi_axes_in_space(configuration.shape[i]);
+      diameters.push_back(static_cast<float>(2 * axes[0]));
+      semi_axes.insert(semi_axes.end(), axes.begin(), axes.end());
+      if (common[static_cast<std::size_t>(configuration.species[i])]) continue;
+      (configuration.shape[i].is_round() ? some_round : some_not) = true;
+    }
+    if (some_not)
+      file_.write<double>("log/particles/semiaxes", semi_axes, 3);
+    else if (some_round)
+      file_.write<float>("particles/diameter", diameters);
+  }
+  /// One row per text, filled up with zero bytes.
+  void write_texts(const std::string& name, const std::vector<std::string>& texts) {
+    std::size_t width = 0;
+    for (const std::string& text : texts) width = std::max(width, text.size() + 1);
+    std::vector<std::int8_t> rows(texts.size() * width);
+    for (std::size_t k = 0; k < texts.size(); ++k)
+      std::copy(texts[k].begin(), texts[k].end(), rows.begin() + static_cast<long>(k * width));
+    file_.write<std::int8_t>(name, rows, static_cast<std::uint32_t>(width));
+  }
+  void write_motion(const Configuration<Dim>& configuration) {
+    std::vector<float> velocities, momenta;
+    for (std::size_t i = 0; i < configuration.size(); ++i) {
+      append(velocities, in_space(configuration.velocity[i]));
+      append(momenta, momentum_quaternion(configuration, i));
+    }
+    if (motion_.velocities) file_.write<float>("particles/velocity", velocities, 3);
+    if (motion_.angular_velocities) file_.write<float>("particles/angmom", momenta, 4);
+  }
 
   GsdFile file_;
   StoredMotion motion_;
   bool has_fixed_ = false;
 };
-
-template <int Dim>
-void GsdSink<Dim>::write(const StoredFrame<Dim>& frame) {
-  const Configuration<Dim>& configuration = frame.configuration;
-  const auto step = static_cast<std::uint64_t>(frame.step);
-  std::array<float, 6> box{};
-  for (int k = 0; k < Dim; ++k) box[k] = rounded_up(configuration.box.lengths()[k]);
-  std::vector<float> positions, orientations;
-  std::vector<std::int32_t> images;
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    for (int k = 0; k < 3; ++k)
-      positions.push_back(k < Dim ? rounded_inside(configuration.position[i][k], box[k]) : 0);
-    const Shift<3> image = in_space(configuration.image[i]);
-    images.insert(images.end(), image.begin(), image.end());
-    append(orientations, orientation_in_space(configuration, i));
-  }
-  file_.write<std::uint64_t>("configuration/step", {&step, 1});
-  file_.write<float>("configuration/box", box);
-  if (!has_fixed_) write_fixed(configuration);
-  file_.write<float>("particles/position", positions, 3);
-  file_.write<float>("particles/orientation", orientations, 4);
-  file_.write<std::int32_t>("particles/image", images, 3);
-  write_motion(configuration);
-  file_.write<double>("log/time", {&configuration.time, 1});
-  file_.end_frame();
-}
-
-/// What the first frame says holds for all.
-template <int Dim>
-void GsdSink<Dim>::write_fixed(const Configuration<Dim>& configuration) {
-  const std::uint8_t dimensions = Dim;
-  const auto n = static_cast<std::uint32_t>(configuration.size());
-  std::vector<float> masses, inertias;
-  for (std::size_t i = 0; i < n; ++i) {
-    masses.push_back(static_cast<float>(configuration.mass[i]));
-    append(inertias, modelled_inertia(configuration, i));
-  }
-  file_.write<std::uint8_t>("configuration/dimensions", {&dimensions, 1});
-  file_.write<std::uint32_t>("particles/N", {&n, 1});
-  write_types(configuration);
-  file_.write<float>("particles/mass", masses);
-  file_.write<float>("particles/moment_inertia", inertias, 3);
-  has_fixed_ = true;
-}
-
-template <int Dim>
-void GsdSink<Dim>::write_types(const Configuration<Dim>& configuration) {
-  const std::vector<CommonShape> common = shapes_of_species(configuration);
-  std::vector<std::string> shapes;
-  for (const CommonShape& shape : common) shapes.push_back(shape_text<Dim>(shape));
-  write_texts("particles/types", configuration.species_names);
-  file_.write<std::uint32_t>(
-      "particles/typeid",
-      std::vector<std::uint32_t>(configuration.species.begin(), configuration.species.end()));
-  write_texts("particles/type_shapes", shapes);
-  write_own_shapes(configuration, common);
-}
-
-/// Writes the sizes of particles that differ within their species: diameters if all such particles are round, else
-/// semi-axes.
-template <int Dim>
-void GsdSink<Dim>::write_own_shapes(const Configuration<Dim>& configuration,
-                                    const std::vector<CommonShape>& common) {
-  bool some_round = false, some_not = false;
-  std::vector<float> diameters;
-  std::vector<double> semi_axes;
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Vec3 axes = semi_axes_in_space(configuration.shape[i]);
-    diameters.push_back(static_cast<float>(2 * axes[0]));
-    semi_axes.insert(semi_axes.end(), axes.begin(), axes.end());
-    if (common[static_cast<std::size_t>(configuration.species[i])]) continue;
-    (configuration.shape[i].is_round() ? some_round : some_not) = true;
-  }
-  if (some_not)
-    file_.write<double>("log/particles/semiaxes", semi_axes, 3);
-  else if (some_round)
-    file_.write<float>("particles/diameter", diameters);
-}
-
-/// One row per text, filled up with zero bytes.
-template <int Dim>
-void GsdSink<Dim>::write_texts(const std::string& name, const std::vector<std::string>& texts) {
-  std::size_t width = 0;
-  for (const std::string& text : texts) width = std::max(width, text.size() + 1);
-  std::vector<std::int8_t> rows(texts.size() * width);
-  for (std::size_t k = 0; k < texts.size(); ++k)
-    std::copy(texts[k].begin(), texts[k].end(), rows.begin() + static_cast<long>(k * width));
-  file_.write<std::int8_t>(name, rows, static_cast<std::uint32_t>(width));
-}
-
-template <int Dim>
-void GsdSink<Dim>::write_motion(const Configuration<Dim>& configuration) {
-  std::vector<float> velocities, momenta;
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    append(velocities, in_space(configuration.velocity[i]));
-    append(momenta, momentum_quaternion(configuration, i));
-  }
-  if (motion_.velocities) file_.write<float>("particles/velocity", velocities, 3);
-  if (motion_.angular_velocities) file_.write<float>("particles/angmom", momenta, 4);
-}
 
 }  // namespace
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "workflow/prepare/prepare.h"
-#include "workflow/prepare/stage_cost.h"
 
 /// @file
 /// What a preparation would do, and what each of its stages is expected to cost.
@@ -13,6 +12,23 @@ namespace vitrel {
 /// Particles as the parameters describe them; at most some thousands.
 template <int Dim>
 Configuration<Dim> representative_particles(const Parameters& parameters);
+
+/// What a stage is expected to cost, good to a factor of two or three.
+struct StageCost {
+  double events = 0;            ///< of growth
+  double sweeps = 0;            ///< of Monte Carlo
+  double seconds = 0;           ///< on one core of a processor of our days
+  bool is_foreseen = true;      ///< false: how many sweeps it takes shows only when they are made
+  double packing_fraction = 0;  ///< at the end
+  double goal = 0;              ///< the packing fraction that the stage is to reach (end_of_stage)
+
+  void add(const StageCost& other) {
+    events += other.events;
+    sweeps += other.sweeps;
+    seconds += other.seconds;
+    is_foreseen = is_foreseen && other.is_foreseen;
+  }
+};
 
 /// A line about the system.
 std::string system_plan(const Parameters& parameters);

@@ -1,4 +1,4 @@
-#include "workflow/report/impact_figures.h"
+#include "workflow/report/pair_figures.h"
 
 #include <fmt/format.h>
 

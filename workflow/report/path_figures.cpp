@@ -1,4 +1,4 @@
-#include "workflow/report/path_figures.h"
+#include "workflow/report/pair_figures.h"
 
 #include <fmt/format.h>
 

@@ -26,15 +26,57 @@ class NearestImages {
  public:
   /// Sets the images of the next frame, those of the first to 0. Where velocities are stored and times known, a
   /// particle that kept its velocity flew straight: UserError if it went to another image than the nearest.
-  void set(Configuration<Dim>& next, bool knows_flight);
+  void set(Configuration<Dim>& next, bool knows_flight) {
+    double longest = 0;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      Shift<Dim>& image = next.image[i] = Shift<Dim>::Zero();
+      if (!last_) continue;
+      // The box may have changed.
+      const Vec<Dim> step = next.position[i].cwiseQuotient(next.box.lengths()) -
+                            last_->position[i].cwiseQuotient(last_->box.lengths());
+      for (int k = 0; k < Dim; ++k) {
+        const double crossings = std::round(step[k]), length = std::abs(step[k] - crossings);
+        image[k] = last_->image[i][k] - static_cast<std::int32_t>(crossings);
+        longest = std::max(longest, length);
+        if (length > longest_.box_lengths) longest_ = {length, i, frames_, k};
+      }
+      if (knows_flight) compare_with_flight(next, i);
+    }
+    if (longest > doubtful_step) doubtful_.push_back(frames_);
+    last_ = next;
+    ++frames_;
+  }
 
   /// A sentence on the longest step.
-  std::string remark() const;
+  std::string remark() const {
+    std::string text = fmt::format(
+        "those of the nearest images (unwrap = \"nearest\"); the longest step is "
+        "{:.3g} box lengths along {}, of particle {} to frame {}",
+        longest_.box_lengths, "xyz"[longest_.direction], longest_.particle, longest_.frame);
+    if (!doubtful_.empty())
+      text += fmt::format(
+          ": above {}, longer steps that were taken for shorter ones cannot be excluded",
+          doubtful_step);
+    return text;
+  }
   /// The frames, in ascending order, to which some particle went so far that it may have gone another way.
   const std::vector<std::size_t>& doubtful_frames() const { return doubtful_; }
 
  private:
-  void compare_with_flight(const Configuration<Dim>& next, std::size_t particle) const;
+  void compare_with_flight(const Configuration<Dim>& next, std::size_t i) const {
+    const Vec<Dim>& velocity = next.velocity[i];
+    constexpr double rounding = 1e-6;  // of single precision
+    if ((velocity - last_->velocity[i]).cwiseAbs().maxCoeff() >
+        rounding * velocity.cwiseAbs().maxCoeff())
+      return;
+    const Vec<Dim> flight = velocity * (next.time - last_->time);
+    const Vec<Dim> step = next.unwrapped(i) - last_->unwrapped(i);
+    if (((flight - step).cwiseAbs() - 0.5 * next.box.lengths()).maxCoeff() > 0)
+      throw UserError(fmt::format(
+          "particle {} has the same velocity as in the frame before and flew by ({}), but its "
+          "nearest image moved by ({}); unwrap = \"nearest\" does not hold for frames so far apart",
+          i, fmt::join(flight, ", "), fmt::join(step, ", ")));
+  }
 
   struct Step {
     double box_lengths = 0;  ///< along one direction
@@ -47,57 +89,6 @@ class NearestImages {
   Step longest_;
   std::vector<std::size_t> doubtful_;
 };
-
-template <int Dim>
-void NearestImages<Dim>::set(Configuration<Dim>& next, bool knows_flight) {
-  double longest = 0;
-  for (std::size_t i = 0; i < next.size(); ++i) {
-    Shift<Dim>& image = next.image[i] = Shift<Dim>::Zero();
-    if (!last_) continue;
-    // The box may have changed.
-    const Vec<Dim> step = next.position[i].cwiseQuotient(next.box.lengths()) -
-                          last_->position[i].cwiseQuotient(last_->box.lengths());
-    for (int k = 0; k < Dim; ++k) {
-      const double crossings = std::round(step[k]), length = std::abs(step[k] - crossings);
-      image[k] = last_->image[i][k] - static_cast<std::int32_t>(crossings);
-      longest = std::max(longest, length);
-      if (length > longest_.box_lengths) longest_ = {length, i, frames_, k};
-    }
-    if (knows_flight) compare_with_flight(next, i);
-  }
-  if (longest > doubtful_step) doubtful_.push_back(frames_);
-  last_ = next;
-  ++frames_;
-}
-
-template <int Dim>
-void NearestImages<Dim>::compare_with_flight(const Configuration<Dim>& next, std::size_t i) const {
-  const Vec<Dim>& velocity = next.velocity[i];
-  constexpr double rounding = 1e-6;  // of single precision
-  if ((velocity - last_->velocity[i]).cwiseAbs().maxCoeff() >
-      rounding * velocity.cwiseAbs().maxCoeff())
-    return;
-  const Vec<Dim> flight = velocity * (next.time - last_->time);
-  const Vec<Dim> step = next.unwrapped(i) - last_->unwrapped(i);
-  if (((flight - step).cwiseAbs() - 0.5 * next.box.lengths()).maxCoeff() > 0)
-    throw UserError(fmt::format(
-        "particle {} has the same velocity as in the frame before and flew by ({}), but its "
-        "nearest image moved by ({}); unwrap = \"nearest\" does not hold for frames so far apart",
-        i, fmt::join(flight, ", "), fmt::join(step, ", ")));
-}
-
-template <int Dim>
-std::string NearestImages<Dim>::remark() const {
-  std::string text = fmt::format(
-      "those of the nearest images (unwrap = \"nearest\"); the longest step is "
-      "{:.3g} box lengths along {}, of particle {} to frame {}",
-      longest_.box_lengths, "xyz"[longest_.direction], longest_.particle, longest_.frame);
-  if (!doubtful_.empty())
-    text +=
-        fmt::format(": above {}, longer steps that were taken for shorter ones cannot be excluded",
-                    doubtful_step);
-  return text;
-}
 
 namespace fs = std::filesystem;
 
@@ -190,7 +181,28 @@ class Conversion {
   bool knows_time() const {
     return first_frame_.time.has_value() || known_.import.time_per_step.has_value();
   }
-  ImportReport report() const;
+  ImportReport report() const {
+    ImportReport report = {
+        {"format", format_.name},
+        {"frames", fmt::format("{} of {} particles in {}", number_, first_->size(),
+                               Dim == 2 ? "the plane" : "space")}};
+    const auto add = [&](const char* heading, const Texts& texts) {
+      if (!texts.empty()) report.emplace_back(heading, fmt::format("{}", fmt::join(texts, ", ")));
+    };
+    add("read", read());
+    add("absent", absent());
+    Texts converted;
+    if (is_turned_)
+      converted.emplace_back("semi-axes a < b are exchanged, and their particles turned by π/2");
+    if (known_.import.length_unit != 1)
+      converted.push_back(fmt::format("lengths are divided by {:g}", known_.import.length_unit));
+    if (known_.import.time_per_step)
+      converted.push_back(fmt::format("times are steps times {:g}", *known_.import.time_per_step));
+    add("converted", converted);
+    if (images_) add("box crossings", {images_->remark()});
+    add("skipped", {first_frame_.skipped.begin(), first_frame_.skipped.end()});
+    return report;
+  }
 
  private:
   using Texts = std::vector<std::string>;
@@ -258,8 +270,41 @@ class Conversion {
     writer_.emplace(TrajectoryWriter::create(copy_, first, Provenance{}, options));
   }
 
-  Texts read() const;
-  Texts absent() const;
+  std::vector<std::string> read() const {
+    Texts texts = parts_of(first_frame_);
+    std::erase_if(texts, [&](const std::string& part) {
+      return first_frame_.assumed.contains(part) ||
+             (has_half_of_velocities_ && part.ends_with("velocities"));
+    });
+    return texts;
+  }
+  std::vector<std::string> absent() const {
+    const ForeignFrame& frame = first_frame_;
+    Texts texts;
+    for (const auto& [name, otherwise] : frame.assumed)
+      texts.push_back(fmt::format("{} ({})", name, otherwise));
+    const auto note = [&](bool is_absent, const std::string& text) {
+      if (is_absent) texts.push_back(text);
+    };
+    const bool has_images = !frame.image.empty() || !frame.unwrapped.empty();
+    note(frame.species.empty(),
+         fmt::format("species (all are \"{}\")", first_->species_names.front()));
+    const bool has_masses = std::ranges::all_of(
+        known_.species, [](const KnownSpecies& s) { return s.mass.has_value(); });
+    note(frame.mass.empty(),
+         known_.species.empty() || !has_masses
+             ? fmt::format("masses (in proportion to the {}, 1 where {} = 1)",
+                           Dim == 2 ? "area" : "volume", Dim == 2 ? "a b" : "a b c")
+             : "masses (those of the species)");
+    note(frame.semi_axes.empty(), "semi-axes (those of the species)");
+    note(!stores_velocities_, has_half_of_velocities_
+                                  ? "angular velocities (so velocities are left out, too)"
+                                  : "velocities (energies are left out)");
+    note(!has_images && !images_ && number_ > 1, "box crossings (motion is left out)");
+    note(!knows_time() && number_ > 1,
+         frame.step ? "times (they are counted in steps)" : "times (they are counted in frames)");
+    return texts;
+  }
 
   const ForeignFormat& format_;
   const KnownSystem& known_;
@@ -271,68 +316,6 @@ class Conversion {
   std::uint64_t number_ = 0;
   bool is_turned_ = false, has_half_of_velocities_ = false, stores_velocities_ = false;
 };
-
-template <int Dim>
-std::vector<std::string> Conversion<Dim>::read() const {
-  Texts texts = parts_of(first_frame_);
-  std::erase_if(texts, [&](const std::string& part) {
-    return first_frame_.assumed.contains(part) ||
-           (has_half_of_velocities_ && part.ends_with("velocities"));
-  });
-  return texts;
-}
-
-template <int Dim>
-std::vector<std::string> Conversion<Dim>::absent() const {
-  const ForeignFrame& frame = first_frame_;
-  Texts texts;
-  for (const auto& [name, otherwise] : frame.assumed)
-    texts.push_back(fmt::format("{} ({})", name, otherwise));
-  const auto note = [&](bool is_absent, const std::string& text) {
-    if (is_absent) texts.push_back(text);
-  };
-  const bool has_images = !frame.image.empty() || !frame.unwrapped.empty();
-  note(frame.species.empty(),
-       fmt::format("species (all are \"{}\")", first_->species_names.front()));
-  const bool has_masses =
-      std::ranges::all_of(known_.species, [](const KnownSpecies& s) { return s.mass.has_value(); });
-  note(frame.mass.empty(),
-       known_.species.empty() || !has_masses
-           ? fmt::format("masses (in proportion to the {}, 1 where {} = 1)",
-                         Dim == 2 ? "area" : "volume", Dim == 2 ? "a b" : "a b c")
-           : "masses (those of the species)");
-  note(frame.semi_axes.empty(), "semi-axes (those of the species)");
-  note(!stores_velocities_, has_half_of_velocities_
-                                ? "angular velocities (so velocities are left out, too)"
-                                : "velocities (energies are left out)");
-  note(!has_images && !images_ && number_ > 1, "box crossings (motion is left out)");
-  note(!knows_time() && number_ > 1,
-       frame.step ? "times (they are counted in steps)" : "times (they are counted in frames)");
-  return texts;
-}
-
-template <int Dim>
-ImportReport Conversion<Dim>::report() const {
-  ImportReport report = {{"format", format_.name},
-                         {"frames", fmt::format("{} of {} particles in {}", number_, first_->size(),
-                                                Dim == 2 ? "the plane" : "space")}};
-  const auto add = [&](const char* heading, const Texts& texts) {
-    if (!texts.empty()) report.emplace_back(heading, fmt::format("{}", fmt::join(texts, ", ")));
-  };
-  add("read", read());
-  add("absent", absent());
-  Texts converted;
-  if (is_turned_)
-    converted.emplace_back("semi-axes a < b are exchanged, and their particles turned by π/2");
-  if (known_.import.length_unit != 1)
-    converted.push_back(fmt::format("lengths are divided by {:g}", known_.import.length_unit));
-  if (known_.import.time_per_step)
-    converted.push_back(fmt::format("times are steps times {:g}", *known_.import.time_per_step));
-  add("converted", converted);
-  if (images_) add("box crossings", {images_->remark()});
-  add("skipped", {first_frame_.skipped.begin(), first_frame_.skipped.end()});
-  return report;
-}
 
 /// The frames of a file in the unit of length of the results.
 class RescaledFrames {
