@@ -114,8 +114,7 @@ class EventDrivenRun {
     ++number;
   }
 
-  template <class Work>
-  void timed_output(Work&& work) {
+  void timed_output(auto&& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;

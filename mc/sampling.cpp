@@ -15,8 +15,7 @@ namespace vitrel {
 namespace {
 
 /// Calls visit(x) for every number that describes the pose of particle i.
-template <class Visit>
-void each_number(auto& c, std::size_t i, Visit&& visit) {
+void each_number(auto& c, std::size_t i, auto&& visit) {
   for (auto& x : c.position[i]) visit(x);
   for (auto& n : c.image[i]) visit(n);
   if constexpr (requires { c.angle; })

@@ -26,8 +26,7 @@ constexpr std::size_t angular_components = Dim == 2 ? 1 : 3;
 double component(double omega, std::size_t) {
   return omega;
 }
-template <class Vector>
-double component(const Vector& v, std::size_t d) {
+double component(const auto& v, std::size_t d) {
   return v[static_cast<int>(d)];
 }
 

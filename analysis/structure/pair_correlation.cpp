@@ -76,8 +76,7 @@ class SortedPoints {
 
   /// Calls visit(p, q, separation) for every pair of images that may lie within the range, each pair
   /// once.
-  template <class Visit>
-  void for_each_pair(Visit&& visit) const {
+  void for_each_pair(auto&& visit) const {
     for (std::size_t i = 0; i < points_.size(); ++i)
       visit_cells<Dim - 1>(i, range_ * range_, 0, -points_[i].position, visit);
   }
@@ -144,9 +143,8 @@ class SortedPoints {
   }
 
   // The points behind i in this row.
-  template <class Visit>
   void visit_row(std::size_t i, const Cells& cells, std::int64_t start, const Vec<Dim>& row,
-                 Visit& visit) const {
+                 auto& visit) const {
     const Point<Dim>& here = points_[i];
     for (std::int64_t right = boxes_off(cells.low, 0); right <= boxes_off(cells.high, 0); ++right) {
       const std::int64_t low = std::max<std::int64_t>(cells.low - right * count_[0], 0);
@@ -259,8 +257,7 @@ auto axis_angle_edges() {
 
 /// The number of edges that θ is beyond: comparisons are faster than a division, and than a branch that is
 /// taken at random.
-template <class Edges>
-std::size_t axis_angle_bin(const Edges& edges, double along, double squared_distance) {
+std::size_t axis_angle_bin(const auto& edges, double along, double squared_distance) {
   std::size_t bin = 0;
   for (const double edge : edges) bin += along < edge * squared_distance;
   return bin;

@@ -122,8 +122,7 @@ Mat3 semi_axes(const Ellipsoid& ellipsoid, const Quaternion& orientation) {
 }
 
 /// The root of the slope in [low, high], where the slope falls from positive to negative.
-template <class Function>
-double maximizer(const Function& f, double low, double high) {
+double maximizer(const auto& f, double low, double high) {
   // The slope is a sum of four terms of order 1: smaller values are rounding.
   constexpr double negligible = 4 * std::numeric_limits<double>::epsilon();
   constexpr int max_steps = 60;  // enough for bisection alone

@@ -48,8 +48,7 @@ void exchange_unfinished(const char* from, const char* to) {
 }
 
 /// Calls `make` with one name after the other, until it makes a new one.
-template <class Make>
-fs::path make_partial(const fs::path& path, const char* what, const Make& make) {
+fs::path make_partial(const fs::path& path, const char* what, const auto& make) {
   constexpr int attempts = 100;
   std::random_device random;
   for (int attempt = 0; attempt < attempts; ++attempt) {

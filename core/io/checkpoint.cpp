@@ -87,8 +87,7 @@ std::string read_text(const h5::Group& group, const std::string& name) {
 }
 
 /// Names as one text, each ended by a zero byte.
-template <class Names>
-std::string joined(const Names& names) {
+std::string joined(const auto& names) {
   std::string text;
   for (const std::string& name : names) text += name + '\0';
   return text;

@@ -117,9 +117,8 @@ void Object::set_attribute(const std::string& name, std::span<const T> values) {
 namespace {
 
 /// Reads strings of either kind HDF5 has; `read` fills memory of the type it is given.
-template <class Read>
 std::vector<std::string> read_strings(const Check& check, const Handle& stored, std::size_t count,
-                                      Read&& read) {
+                                      auto&& read) {
   std::vector<std::string> texts(count);
   if (check(H5Tget_class(stored.id())) != H5T_STRING) return texts;
   if (check(H5Tis_variable_str(stored.id())) > 0) {

@@ -239,8 +239,7 @@ class Cells {
 
   /// Calls visit once for every pair in the same or neighbouring cells, and, in a small box, for every
   /// particle and itself.
-  template <class Visit>
-  void for_each_pair(Visit&& visit) const {
+  void for_each_pair(auto&& visit) const {
     for (std::size_t s = 0; s < members_.size(); ++s) {
       const std::size_t first = own_images_ ? s : s + 1;
       for_each_near_cell<0>(members_[s].centre, 0, [&](std::size_t cell) {

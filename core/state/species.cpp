@@ -99,13 +99,11 @@ std::vector<std::size_t> pairing(std::size_t n, std::size_t k) {
 
 // ---- shapes from their distributions, drawn or listed: `value(distribution)` is called for each in turn -----------
 
-template <class Value>
-double value_or_one(const std::optional<Distribution>& distribution, Value&& value) {
+double value_or_one(const std::optional<Distribution>& distribution, auto&& value) {
   return distribution ? value(*distribution) : 1;
 }
 
-template <class Value>
-void make_shape(const Species& species, Value&& value, Ellipse& shape) {
+void make_shape(const Species& species, auto&& value, Ellipse& shape) {
   if (species.semi_axes) {
     const double one = value(species.semi_axes->at(0));
     const double other = value(species.semi_axes->at(1));
@@ -122,8 +120,7 @@ void make_shape(const Species& species, Value&& value, Ellipse& shape) {
   shape = {size * std::sqrt(ratio), size / std::sqrt(ratio)};
 }
 
-template <class Value>
-void make_shape(const Species& species, Value&& value, Ellipsoid& shape) {
+void make_shape(const Species& species, auto&& value, Ellipsoid& shape) {
   if (species.semi_axes) {
     for (std::size_t k = 0; k < 3; ++k)
       shape.semi_axes[static_cast<int>(k)] = value(species.semi_axes->at(k));
@@ -164,8 +161,7 @@ std::vector<Solid<Dim>> listed_shapes(const Species& species, std::size_t n) {
   return shapes;
 }
 
-template <class Shape>
-void require_tested_aspect(const Species& species, const Shape& shape) {
+void require_tested_aspect(const Species& species, const auto& shape) {
   const double aspect = shape.circumradius() / shape.inradius();
   if (!(aspect <= max_aspect))
     throw UserError(

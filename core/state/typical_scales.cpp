@@ -10,8 +10,7 @@ namespace vitrel {
 namespace {
 
 /// value(i) of the median particle, in single precision: semi-axes are rounded, but particles of size 1 have the size 1.
-template <class Value>
-double lower_median(std::size_t count, Value&& value) {
+double lower_median(std::size_t count, auto&& value) {
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) values.push_back(value(i));
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((count - 1) / 2);

@@ -83,8 +83,7 @@ std::string key_of(const ForceForm& form, const RestitutionDomain& domain,
 
 /// The checksum of all numbers. A program that changes the file makes the checksums of HDF5 right again, but not this
 /// one.
-template <class Content>
-std::uint64_t checksum_of(const Content& content) {
+std::uint64_t checksum_of(const auto& content) {
   WordChecksum checksum;
   for (const auto& node : content.nodes) {
     checksum.add(std::bit_cast<std::uint64_t>(node.middle));
@@ -95,8 +94,7 @@ std::uint64_t checksum_of(const Content& content) {
   return checksum.value();
 }
 
-template <class Panels>
-void write_panels(h5::Group& group, const Panels& panels) {
+void write_panels(h5::Group& group, const auto& panels) {
   std::vector<double> middle;
   std::vector<std::int32_t> axis, next;
   for (const auto& node : panels.content().nodes) {

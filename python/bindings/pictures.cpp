@@ -31,8 +31,7 @@ std::vector<Colour> colours_of(const Bytes& array, std::size_t n) {
   return {first, first + n};
 }
 
-template <class SceneOf>
-Bytes picture(int width, SceneOf&& scene_of) {
+Bytes picture(int width, auto&& scene_of) {
   const Image image = [&] {
     const Released released;
     const Scene scene = scene_of();

@@ -68,8 +68,7 @@ void require_orders_of_directors(const TrajectoryReader& reader,
 }
 
 /// The file becomes part of the message where it cannot be analysed as it was asked for.
-template <class Work>
-auto naming(const std::filesystem::path& file, Work&& work) {
+auto naming(const std::filesystem::path& file, auto&& work) {
   try {
     return work();
   } catch (const UserError& error) {

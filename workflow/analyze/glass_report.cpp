@@ -62,8 +62,7 @@ std::vector<std::string> law_lines(const GlassStudy& study) {
 }
 
 /// The densities of the runs of which something is true, each once.
-template <class Predicate>
-std::string densities_where(const GlassStudy& study, Predicate&& predicate) {
+std::string densities_where(const GlassStudy& study, auto&& predicate) {
   std::string text;
   std::string last;
   for (const GlassRun& run : study.runs) {

@@ -17,8 +17,7 @@ namespace {
 constexpr const char* reason_key = "verdict_reason";
 constexpr const char* translation_reason_key = "verdict_translation_reason";
 
-template <class Code>
-double number(Code code) {
+double number(auto code) {
   return static_cast<double>(static_cast<int>(code));
 }
 

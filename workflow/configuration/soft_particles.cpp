@@ -108,13 +108,11 @@ std::shared_ptr<SoftContact> contact_by(const Force& force,
 }
 
 /// `use(member)` for the member that is the force of the law; `use(force)` for that force.
-template <class Use>
-auto with_force_member(const ContactParameters& p, Use&& use) {
+auto with_force_member(const ContactParameters& p, auto&& use) {
   return p.law == ContactParameters::Law::linear_dashpot ? use(&ContactParameters::linear_dashpot)
                                                          : use(&ContactParameters::viscoelastic);
 }
-template <class Use>
-auto with_force(const ContactParameters& p, Use&& use) {
+auto with_force(const ContactParameters& p, auto&& use) {
   return with_force_member(p, [&](auto member) { return use(p.*member); });
 }
 

@@ -38,8 +38,7 @@ std::optional<Misfit> ratio_misfit(const Species& species, const std::vector<dou
   return one ? one : misfit("aspect_ratio", ratio, second, agreement);
 }
 
-template <class Shape>
-std::optional<Misfit> misfit(const Species& species, const Shape& shape, double mass,
+std::optional<Misfit> misfit(const Species& species, const auto& shape, double mass,
                              Agreement agreement) {
   const auto lengths = semi_axes_of(shape);
   const std::vector<double> axes(lengths.begin(), lengths.end());

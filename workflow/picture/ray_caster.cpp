@@ -175,18 +175,15 @@ class Band {
                  static_cast<std::size_t>(column)];
   }
 
-  template <class Visit>
-  void for_each_ray(Visit&& visit) {
+  void for_each_ray(auto&& visit) {
     for (int row = first_row_; row < end_row_; ++row)
       for (int column = 0; column < raster_.width; ++column) visit(row, column);
   }
-  template <class Visit>
-  void for_rows(double middle, double reach, Visit&& visit) {
+  void for_rows(double middle, double reach, auto&& visit) {
     const int end = std::min(raster_.row(middle - reach), end_row_);
     for (int row = std::max(raster_.row(middle + reach), first_row_); row < end; ++row) visit(row);
   }
-  template <class Visit>
-  void for_columns(double middle, double reach, Visit&& visit) {
+  void for_columns(double middle, double reach, auto&& visit) {
     const int end = raster_.column(middle + reach);
     for (int column = raster_.column(middle - reach); column < end; ++column) visit(column);
   }

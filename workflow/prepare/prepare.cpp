@@ -32,8 +32,7 @@ struct PrepareCheckpoint {
   std::string parameters;    ///< effective parameters, TOML
 };
 
-template <class Record, class Visit>
-void each_item_of_record(Record& record, const std::string& path, Visit&& visit) {
+void each_item_of_record(auto& record, const std::string& path, auto&& visit) {
   visit(path + "reason", record.report.reason);
   visit(path + "packing_fraction", record.packing_fraction);
   visit(path + "mean_packing_fraction", record.mean_packing_fraction.mean);
@@ -48,8 +47,7 @@ void each_item_of_record(Record& record, const std::string& path, Visit&& visit)
   each_item_of_growth(record.growth, path, visit);
 }
 
-template <class Stored, class Visit>
-void each_item(Stored& stored, Visit&& visit) {
+void each_item(auto& stored, auto&& visit) {
   visit("next_sweep", stored.done.next_sweep);
   visit("wall_seconds", stored.done.wall_seconds);
   for (std::size_t k = 0; k < stored.done.stages.size(); ++k)

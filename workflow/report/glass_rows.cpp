@@ -55,8 +55,7 @@ std::string html_row(std::string_view head, std::initializer_list<std::string> c
   return row + "</tr>\n";
 }
 
-template <class Format>
-std::string rows_of(const Results& study, const char* name, Format&& format) {
+std::string rows_of(const Results& study, const char* name, auto&& format) {
   const Table* table = study.find(name);
   std::string rows;
   for (std::size_t k = 0; table && k < table->rows(); ++k) rows += format(Row{study, name, k});

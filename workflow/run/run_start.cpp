@@ -70,8 +70,7 @@ void require_trajectory(const RunCheckpoint<Dim>& run, const Parameters& recorde
   }
 }
 
-template <class Run, class Visit>
-void each_item(Run& run, Visit&& visit) {
+void each_item(auto& run, auto&& visit) {
   auto& state = run.state;
   each_item_of_counters(state.counters, "", visit);
   visit("start_time", state.start_time);

@@ -30,8 +30,7 @@ struct CompressStage : StageDefaults {
   StageReport advance(CompressionState& state, const StageContext& context) const;
   void record(const CompressionState& state, StageRecord& record) const;
 
-  template <class AnyState, class Visit>
-  static void each_item(AnyState& state, Visit&& visit) {
+  static void each_item(auto& state, auto&& visit) {
     each_item_of_moves(state.moves, "compression.", visit);
     each_item_of_step(state.box.step, "compression.box.", visit);
     visit("compression.box.aspect_at_start", state.box.aspect_at_start);

@@ -20,10 +20,7 @@ struct GrowStage : GrowthGoal<GrowStage> {
   StageReport advance(GrowthState& state, const StageContext& context) const;
   void record(const GrowthState& state, StageRecord& record) const;
 
-  template <class AnyState, class Visit>
-  static void each_item(AnyState& state, Visit&& visit) {
-    each_item_of_growth(state, "growth.", visit);
-  }
+  static void each_item(auto& state, auto&& visit) { each_item_of_growth(state, "growth.", visit); }
 };
 
 }  // namespace vitrel

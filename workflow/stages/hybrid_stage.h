@@ -23,8 +23,7 @@ struct HybridStage : GrowthGoal<HybridStage> {
   StageReport advance(HybridState& state, const StageContext& context) const;
   void record(const HybridState& state, StageRecord& record) const;
 
-  template <class AnyState, class Visit>
-  static void each_item(AnyState& state, Visit&& visit) {
+  static void each_item(auto& state, auto&& visit) {
     each_item_of_growth(state.growth, "hybrid.growth.", visit);
     each_item_of_sampling(state.sampling, "hybrid.", visit);
     visit("hybrid.stretches", state.stretches);

@@ -27,8 +27,7 @@ struct SampleStage : StageDefaults {
   StageReport advance(SamplingState& state, const StageContext& context) const;
   void record(const SamplingState& state, StageRecord& record) const;
 
-  template <class AnyState, class Visit>
-  static void each_item(AnyState& state, Visit&& visit) {
+  static void each_item(auto& state, auto&& visit) {
     each_item_of_sampling(state, "sampling.", visit);
   }
 };

@@ -16,8 +16,7 @@ namespace {
 constexpr double packing_fraction_slack = 1e-9;
 
 /// `use(stage)` for every kind of stage, with its defaults.
-template <class Use>
-void each_kind(Use&& use) {
+void each_kind(auto&& use) {
   [&]<std::size_t... k>(std::index_sequence<k...>) {
     (use(std::variant_alternative_t<k, Stage>()), ...);
   }
@@ -25,8 +24,7 @@ void each_kind(Use&& use) {
 }
 
 /// The names of all methods for which `applies(stage)`.
-template <class Applies>
-std::vector<const char*> methods(Applies&& applies) {
+std::vector<const char*> methods(auto&& applies) {
   std::vector<const char*> names;
   each_kind([&]<class S>(const S& stage) {
     if (applies(stage)) names.push_back(S::method);

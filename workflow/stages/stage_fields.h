@@ -20,8 +20,7 @@ inline constexpr Bounds reduced_pressure_bounds{1, max_reduced_pressure, true};
 inline constexpr Bounds share_of_local_moves{
     0, 1, false, true, "lie between 0 and 1, 1 excluded: exchanges alone move nothing"};
 
-template <class S>
-void describe_packing_fraction(S& stage, FieldVisitor& visit) {
+void describe_packing_fraction(auto& stage, FieldVisitor& visit) {
   visit.optional({"packing_fraction", "",
                   "Packing fraction at the end of the stage. The default is that of the system, "
                   "but at most 0.3 (0.01 in three dimensions) for insert. There is no default for "
@@ -30,8 +29,7 @@ void describe_packing_fraction(S& stage, FieldVisitor& visit) {
                  stage.packing_fraction, 0.3);
 }
 
-template <class S>
-void describe_max_sweeps(S& stage, FieldVisitor& visit) {
+void describe_max_sweeps(auto& stage, FieldVisitor& visit) {
   visit.field(
       {"max_sweeps", "",
        "Maximum number of sweeps to reach a packing fraction or a number of decorrelations.",
@@ -39,8 +37,7 @@ void describe_max_sweeps(S& stage, FieldVisitor& visit) {
       stage.max_sweeps);
 }
 
-template <class S>
-void describe_reduced_pressure(S& stage, FieldVisitor& visit) {
+void describe_reduced_pressure(auto& stage, FieldVisitor& visit) {
   visit.optional(
       {"reduced_pressure", "",
        "βP/ρ at the end of the stage, at any packing fraction; use 1e6 or more for a jammed state. "
@@ -49,8 +46,7 @@ void describe_reduced_pressure(S& stage, FieldVisitor& visit) {
       stage.reduced_pressure, 1e6);
 }
 
-template <class S>
-void describe_growth_rate(S& stage, FieldVisitor& visit) {
+void describe_growth_rate(auto& stage, FieldVisitor& visit) {
   visit.field(
       {"growth_rate", "",
        "Relative growth of all lengths in the time in which a typical particle, the median, "
@@ -60,8 +56,7 @@ void describe_growth_rate(S& stage, FieldVisitor& visit) {
       stage.growth_rate);
 }
 
-template <class S>
-void describe_moves(S& stage, FieldVisitor& visit) {
+void describe_moves(auto& stage, FieldVisitor& visit) {
   static constexpr const char* names[] = {"chains", "local"};
   visit.field({"moves", "",
                "Monte Carlo moves: event chains, which relax density and positions many times "
@@ -69,8 +64,7 @@ void describe_moves(S& stage, FieldVisitor& visit) {
               stage.moves, names);
 }
 
-template <class S>
-void describe_exchanges(S& stage, FieldVisitor& visit) {
+void describe_exchanges(auto& stage, FieldVisitor& visit) {
   visit.field(
       {"exchanges", "",
        "Exchanges of the places of two particles of different shape, as a share of the local "
@@ -96,8 +90,7 @@ void describe_exchanges(S& stage, FieldVisitor& visit) {
               stage.exchanges.collective);
 }
 
-template <class S>
-void describe_sweeps(S& stage, FieldVisitor& visit) {
+void describe_sweeps(auto& stage, FieldVisitor& visit) {
   visit.field({"sweeps", "",
                "Number of sweeps. A sweep makes as many trial moves as there are particles. For "
                "compress, only without a packing fraction; for sample, only without a number of "

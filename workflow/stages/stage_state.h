@@ -41,8 +41,7 @@ StageReport advance_stage(const Stage& stage, StageState& state, const StageCont
 StageRecord record_of(const Stage& stage, const StageState& state);
 
 /// The items of the state in a checkpoint; `state` may be constant.
-template <class State, class Visit>
-void each_item_of_stage(State& state, Visit&& visit) {
+void each_item_of_stage(auto& state, auto&& visit) {
   std::visit([&](auto& one) { std::decay_t<decltype(one)>::Kind::each_item(one.value, visit); },
              state);
 }

@@ -24,8 +24,7 @@ struct SwellStage : StageDefaults {
   StageReport advance(SwellingState& state, const StageContext& context) const;
   void record(const SwellingState& state, StageRecord& record) const;
 
-  template <class AnyState, class Visit>
-  static void each_item(AnyState& state, Visit&& visit) {
+  static void each_item(auto& state, auto&& visit) {
     each_item_of_moves(state.moves, "swelling.", visit);
     visit("swelling.growth", state.growth);
     visit("swelling.watched_sweeps", state.checked_sweeps);

@@ -117,9 +117,8 @@ Vec3 semi_axes_of(const ForeignFrame& frame, const KnownSpecies* known, std::siz
       name));
 }
 
-template <class Shape>
 double mass_of(const ForeignFrame& frame, const KnownSpecies* known, std::size_t i,
-               const Shape& shape) {
+               const auto& shape) {
   const double mass = !frame.mass.empty()    ? frame.mass[i]
                       : known && known->mass ? *known->mass
                                              : natural_mass(shape);
