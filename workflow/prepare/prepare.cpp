@@ -32,26 +32,26 @@ struct PrepareCheckpoint {
   std::string parameters;    ///< effective parameters, TOML
 };
 
-void each_item_of_record(auto& record, const std::string& path, auto&& visit) {
-  visit(path + "reason", record.report.reason);
-  visit(path + "packing_fraction", record.packing_fraction);
-  visit(path + "mean_packing_fraction", record.mean_packing_fraction.mean);
-  visit(path + "mean_packing_fraction_error", record.mean_packing_fraction.error);
-  visit(path + "sweeps", record.sweeps);
-  visit(path + "chain_contacts", record.chain_contacts);
-  visit.if_recorded(path + "chain_pressure", record.chain_pressure);
-  visit.if_recorded(path + "decorrelations", record.decorrelations);
-  visit(path + "wall_seconds", record.wall_seconds);
-  visit.if_recorded(path + "orientation_tensor", record.orientation_tensor);
-  each_item_of_trials(record.trials, path, visit);
-  each_item_of_growth(record.growth, path, visit);
+void each_item_of_record(auto& record, auto&& visit) {
+  visit("reason", record.report.reason);
+  visit("packing_fraction", record.packing_fraction);
+  visit("mean_packing_fraction", record.mean_packing_fraction.mean);
+  visit("mean_packing_fraction_error", record.mean_packing_fraction.error);
+  visit("sweeps", record.sweeps);
+  visit("chain_contacts", record.chain_contacts);
+  visit.if_recorded("chain_pressure", record.chain_pressure);
+  visit.if_recorded("decorrelations", record.decorrelations);
+  visit("wall_seconds", record.wall_seconds);
+  visit.if_recorded("orientation_tensor", record.orientation_tensor);
+  each_item_of_trials(record.trials, visit);
+  each_item_of_growth(record.growth, visit);
 }
 
 void each_item(auto& stored, auto&& visit) {
   visit("next_sweep", stored.done.next_sweep);
   visit("wall_seconds", stored.done.wall_seconds);
   for (std::size_t k = 0; k < stored.done.stages.size(); ++k)
-    each_item_of_record(stored.done.stages[k], fmt::format("stage.{}.", k), visit);
+    each_item_of_record(stored.done.stages[k], visit.below(fmt::format("stage.{}.", k)));
   visit("work.wall_seconds", stored.stage_seconds);
   each_item_of_stage(stored.state, visit);
 }

@@ -72,7 +72,7 @@ void require_trajectory(const RunCheckpoint<Dim>& run, const Parameters& recorde
 
 void each_item(auto& run, auto&& visit) {
   auto& state = run.state;
-  each_item_of_counters(state.counters, "", visit);
+  each_item_of_counters(state.counters, visit);
   visit("start_time", state.start_time);
   visit("flight_energy", state.flight_energy);
   visit("energy_drift", state.energy_drift);

@@ -31,8 +31,8 @@ struct CompressStage : StageDefaults {
   void record(const CompressionState& state, StageRecord& record) const;
 
   static void each_item(auto& state, auto&& visit) {
-    each_item_of_moves(state.moves, "compression.", visit);
-    each_item_of_step(state.box.step, "compression.box.", visit);
+    each_item_of_moves(state.moves, visit.below("compression."));
+    each_item_of_step(state.box.step, visit.below("compression.box."));
     visit("compression.box.aspect_at_start", state.box.aspect_at_start);
     visit.if_recorded("compression.box.depth_at_start", state.box.depth_at_start);
     visit("compression.box.all_tried", state.box.tried);

@@ -20,7 +20,9 @@ struct GrowStage : GrowthGoal<GrowStage> {
   StageReport advance(GrowthState& state, const StageContext& context) const;
   void record(const GrowthState& state, StageRecord& record) const;
 
-  static void each_item(auto& state, auto&& visit) { each_item_of_growth(state, "growth.", visit); }
+  static void each_item(auto& state, auto&& visit) {
+    each_item_of_growth(state, visit.below("growth."));
+  }
 };
 
 }  // namespace vitrel

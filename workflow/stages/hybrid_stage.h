@@ -24,8 +24,8 @@ struct HybridStage : GrowthGoal<HybridStage> {
   void record(const HybridState& state, StageRecord& record) const;
 
   static void each_item(auto& state, auto&& visit) {
-    each_item_of_growth(state.growth, "hybrid.growth.", visit);
-    each_item_of_sampling(state.sampling, "hybrid.", visit);
+    each_item_of_growth(state.growth, visit.below("hybrid.growth."));
+    each_item_of_sampling(state.sampling, visit.below("hybrid."));
     visit("hybrid.stretches", state.stretches);
     visit("hybrid.stretch_end", state.stretch_end);
   }

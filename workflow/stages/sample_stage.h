@@ -28,7 +28,7 @@ struct SampleStage : StageDefaults {
   void record(const SamplingState& state, StageRecord& record) const;
 
   static void each_item(auto& state, auto&& visit) {
-    each_item_of_sampling(state, "sampling.", visit);
+    each_item_of_sampling(state, visit.below("sampling."));
   }
 };
 

@@ -25,7 +25,7 @@ struct SwellStage : StageDefaults {
   void record(const SwellingState& state, StageRecord& record) const;
 
   static void each_item(auto& state, auto&& visit) {
-    each_item_of_moves(state.moves, "swelling.", visit);
+    each_item_of_moves(state.moves, visit.below("swelling."));
     visit("swelling.growth", state.growth);
     visit("swelling.watched_sweeps", state.checked_sweeps);
     visit("swelling.watched_packing_fraction", state.checked_packing_fraction);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -32,29 +33,34 @@ auto& items_like(const std::vector<double>&, auto& checkpoint) {
 
 class ItemWriter {
  public:
-  explicit ItemWriter(Checkpoint& checkpoint) : checkpoint_(checkpoint) {}
+  explicit ItemWriter(Checkpoint& checkpoint, std::string path = "")
+      : checkpoint_(checkpoint), path_(std::move(path)) {}
+  /// The writer of items whose names begin with `path`.
+  ItemWriter below(const std::string& path) const { return ItemWriter(checkpoint_, path_ + path); }
   void operator()(const std::string& name, const auto& value) const {
-    items_like(value, checkpoint_)[name] = value;
+    items_like(value, checkpoint_)[path_ + name] = value;
   }
   void if_recorded(const std::string& name, const auto& value) const { (*this)(name, value); }
 
  private:
   Checkpoint& checkpoint_;
+  std::string path_;
 };
 
 class ItemReader {
  public:
-  ItemReader(const Checkpoint& checkpoint, const std::filesystem::path& file)
-      : checkpoint_(checkpoint), file_(file) {}
+  ItemReader(const Checkpoint& checkpoint, const std::filesystem::path& file, std::string path = "")
+      : checkpoint_(checkpoint), file_(file), path_(std::move(path)) {}
+  ItemReader below(const std::string& path) const { return {checkpoint_, file_, path_ + path}; }
   /// Throws FileError, naming `file`, if the item is missing.
   void operator()(const std::string& name, auto& value) const {
-    if (!items_like(value, checkpoint_).contains(name)) refuse_without(name);
+    if (!items_like(value, checkpoint_).contains(path_ + name)) refuse_without(path_ + name);
     if_recorded(name, value);
   }
   /// An item that earlier versions did not write: `value` remains if it is missing.
   void if_recorded(const std::string& name, auto& value) const {
     const auto& items = items_like(value, checkpoint_);
-    if (const auto found = items.find(name); found != items.end()) value = found->second;
+    if (const auto found = items.find(path_ + name); found != items.end()) value = found->second;
   }
 
  private:
@@ -65,6 +71,7 @@ class ItemReader {
 
   const Checkpoint& checkpoint_;
   const std::filesystem::path& file_;
+  std::string path_;
 };
 
 }  // namespace vitrel
