@@ -76,8 +76,16 @@ auto naming(const std::filesystem::path& file, auto&& work) {
   }
 }
 
-Column single(const char* name, const std::string& unit, double value, double error) {
+Column single(const std::string& name, const std::string& unit, double value, double error) {
   return {name, unit, {value}, {error}};
+}
+
+/// A coefficient, and the window of time that it is from.
+void add_slope(std::vector<Column>& columns, const std::string& name, const std::string& unit,
+               const DiffusionCoefficient& slope) {
+  columns.push_back(single(name, unit, slope.value, slope.error));
+  columns.push_back({name + "_from", "time", {slope.from}});
+  columns.push_back({name + "_to", "time", {slope.to}});
 }
 
 std::vector<Column> summary_columns(const RunAnalysis& run) {
@@ -94,21 +102,12 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
       {"duration", "time", {run.duration}},
       single("compressibility_factor", "1", z.mean, z.error),
       single("translational_energy", "kT", translational.mean, translational.error),
-      single("rotational_energy", "kT", rotational.mean, rotational.error),
-      single("diffusion", "length^2/time", run.diffusion.value, run.diffusion.error),
-      {"diffusion_from", "time", {run.diffusion.from}},
-      {"diffusion_to", "time", {run.diffusion.to}},
-      single("rotational_diffusion", "rad^2/time", run.rotational_diffusion.value,
-             run.rotational_diffusion.error),
-      {"rotational_diffusion_from", "time", {run.rotational_diffusion.from}},
-      {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}}};
-  if (run.motion && run.motion->viscosity) {
-    const DiffusionCoefficient& viscosity = run.motion->viscosity->shear;
-    columns.push_back(single("viscosity", fmt::format("kT time/length^{}", run.motion->dimension),
-                             viscosity.value, viscosity.error));
-    columns.push_back({"viscosity_from", "time", {viscosity.from}});
-    columns.push_back({"viscosity_to", "time", {viscosity.to}});
-  }
+      single("rotational_energy", "kT", rotational.mean, rotational.error)};
+  add_slope(columns, "diffusion", "length^2/time", run.diffusion);
+  add_slope(columns, "rotational_diffusion", "rad^2/time", run.rotational_diffusion);
+  if (run.motion && run.motion->viscosity)
+    add_slope(columns, "viscosity", fmt::format("kT time/length^{}", run.motion->dimension),
+              run.motion->viscosity->shear);
   for (const Table& table : run.structure.tables)
     if (const Column* hexatic = table.name == "order" ? table.find("hexatic") : nullptr) {
       const Estimate mean = time_average(table.find("time")->value, hexatic->value);
