@@ -15,23 +15,28 @@ namespace vitrel {
 /// Whom an analysis tells how far it has come; empty: nobody.
 using ProgressReport = std::function<void(const Progress&)>;
 
-/// A sequence of configurations of the same particles, read one at a time: no method of the
-/// analysis needs more than one of them in memory at once.
-template <int Dim>
-class Trajectory {
+/// When the frames of a trajectory are, and what is known of the motion between them.
+class FrameTimes {
  public:
-  virtual ~Trajectory() = default;
+  virtual ~FrameTimes() = default;
   /// Strictly increasing sample times.
   virtual const std::vector<double>& times() const = 0;
-  /// Frame k; the reference is valid until the next call.
-  virtual const Configuration<Dim>& read(std::size_t k) = 0;
-  /// The same for who needs no velocities: they may be those of another frame.
-  virtual const Configuration<Dim>& read_places(std::size_t k) { return read(k); }
   /// Angles in the plane are known up to multiples of this, 2π, or π for directors; 0: whole turns are counted.
   virtual double turn_period() const { return 0; }
   /// The frames, in ascending order, to which some particle may have gone another way than its box crossings say.
   virtual std::vector<std::size_t> doubtful_frames() const { return {}; }
   std::size_t frames() const { return times().size(); }
+};
+
+/// A sequence of configurations of the same particles, read one at a time: no method of the
+/// analysis needs more than one of them in memory at once.
+template <int Dim>
+class Trajectory : public FrameTimes {
+ public:
+  /// Frame k; the reference is valid until the next call.
+  virtual const Configuration<Dim>& read(std::size_t k) = 0;
+  /// The same for who needs no velocities: they may be those of another frame.
+  virtual const Configuration<Dim>& read_places(std::size_t k) { return read(k); }
 };
 
 /// A trajectory held in memory.

@@ -15,4 +15,11 @@ inline constexpr int all_cores = std::numeric_limits<int>::max();
 void in_parallel(std::size_t count, int threads,
                  const std::function<void(std::size_t begin, std::size_t end)>& work);
 
+/// Calls work(k) for every k in [0, count) likewise.
+void each_in_parallel(std::size_t count, int threads, const auto& work) {
+  in_parallel(count, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) work(k);
+  });
+}
+
 }  // namespace vitrel

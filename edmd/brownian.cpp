@@ -63,13 +63,11 @@ double translational_target(const Configuration<Dim>& configuration, Temperature
 template <int Dim>
 void draw_velocities(Configuration<Dim>& configuration, std::uint64_t seed, Purpose purpose,
                      std::uint64_t step, Temperature temperature, Contacts contacts, int threads) {
-  in_parallel(configuration.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Stream draw(seed, purpose, step, i);
-      const double thermal = 1 / std::sqrt(configuration.mass[i]);
-      for (double& v : configuration.velocity[i]) v = thermal * draw.normal();
-      configuration.angular_velocity[i] = thermal_spin(configuration, i, contacts, draw);
-    }
+  each_in_parallel(configuration.size(), threads, [&](std::size_t i) {
+    Stream draw(seed, purpose, step, i);
+    const double thermal = 1 / std::sqrt(configuration.mass[i]);
+    for (double& v : configuration.velocity[i]) v = thermal * draw.normal();
+    configuration.angular_velocity[i] = thermal_spin(configuration, i, contacts, draw);
   });
   if (configuration.size() > 1) remove_momentum(configuration);
   const auto drawn = mechanics(configuration);
@@ -162,12 +160,10 @@ void kick(Configuration<Dim>& configuration, const Driving& driving, std::uint64
   const auto n = static_cast<double>(configuration.size());
   const double energy = driving.power * driving.interval * n / (n - 1);
   std::vector<Vec<Dim>> impulses(configuration.size());
-  in_parallel(configuration.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Stream draw(seed, Purpose::kicks, step, i);
-      const double width = std::sqrt(2 * energy * configuration.mass[i] / Dim);
-      for (double& component : impulses[i]) component = width * draw.normal();
-    }
+  each_in_parallel(configuration.size(), threads, [&](std::size_t i) {
+    Stream draw(seed, Purpose::kicks, step, i);
+    const double width = std::sqrt(2 * energy * configuration.mass[i] / Dim);
+    for (double& component : impulses[i]) component = width * draw.normal();
   });
   Vec<Dim> total = Vec<Dim>::Zero();
   double mass = 0;

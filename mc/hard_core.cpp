@@ -5,7 +5,6 @@
 
 #include "core/contact/contact_queries.h"
 #include "core/contact/perram_wertheim.h"
-#include "core/elementary.h"
 #include "core/neighbors/pairs.h"
 #include "core/tolerances.h"
 
@@ -76,37 +75,11 @@ double shrink_to_contact(const Configuration<Dim>& configuration, double lowest)
   return factor;
 }
 
-template <int Dim>
-void scale_box(Configuration<Dim>& configuration, const Vec<Dim>& factors) {
-  configuration.box = PeriodicBox<Dim>(configuration.box.lengths().cwiseProduct(factors));
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    configuration.position[i] = configuration.position[i].cwiseProduct(factors);
-    configuration.box.wrap(configuration.position[i], configuration.image[i]);
-  }
-}
-
-template <int Dim>
-void scale_box(Configuration<Dim>& configuration, double factor) {
-  scale_box(configuration, Vec<Dim>(Vec<Dim>::Constant(factor)));
-}
-
-template <int Dim>
-void scale_to_packing_fraction(Configuration<Dim>& configuration, double packing_fraction) {
-  const double ratio = vitrel::packing_fraction(configuration) / packing_fraction;
-  scale_box(configuration, root(ratio, Dim));
-}
-
 template double hard_margin(const Configuration2&);
 template double hard_margin(const Configuration3&);
 template std::optional<std::pair<std::size_t, std::size_t>> find_overlap(const Configuration2&);
 template std::optional<std::pair<std::size_t, std::size_t>> find_overlap(const Configuration3&);
 template double shrink_to_contact(const Configuration2&, double);
 template double shrink_to_contact(const Configuration3&, double);
-template void scale_box(Configuration2&, const Vec2&);
-template void scale_box(Configuration3&, const Vec3&);
-template void scale_box(Configuration2&, double);
-template void scale_box(Configuration3&, double);
-template void scale_to_packing_fraction(Configuration2&, double);
-template void scale_to_packing_fraction(Configuration3&, double);
 
 }  // namespace vitrel

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/elementary.h"
 #include "core/geometry/ellipse.h"
 #include "core/state/configuration.h"
 
@@ -33,13 +34,24 @@ double shrink_to_contact(const Configuration<Dim>& configuration, double lowest)
 
 /// Scales the sides of the box and all positions by these factors; shapes stay.
 template <int Dim>
-void scale_box(Configuration<Dim>& configuration, const Vec<Dim>& factors);
+void scale_box(Configuration<Dim>& configuration, const Vec<Dim>& factors) {
+  configuration.box = PeriodicBox<Dim>(configuration.box.lengths().cwiseProduct(factors));
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    configuration.position[i] = configuration.position[i].cwiseProduct(factors);
+    configuration.box.wrap(configuration.position[i], configuration.image[i]);
+  }
+}
 /// The same with one factor for all sides.
 template <int Dim>
-void scale_box(Configuration<Dim>& configuration, double factor);
+void scale_box(Configuration<Dim>& configuration, double factor) {
+  scale_box(configuration, Vec<Dim>(Vec<Dim>::Constant(factor)));
+}
 
 /// Scales to this packing fraction exactly (to rounding).
 template <int Dim>
-void scale_to_packing_fraction(Configuration<Dim>& configuration, double packing_fraction);
+void scale_to_packing_fraction(Configuration<Dim>& configuration, double packing_fraction) {
+  const double ratio = vitrel::packing_fraction(configuration) / packing_fraction;
+  scale_box(configuration, root(ratio, Dim));
+}
 
 }  // namespace vitrel

@@ -81,9 +81,7 @@ void HardParticles<Dim>::arrange_by_domain(int threads) {
   sort();
   cells_.resize(board_->cells(), configuration_.size());
   free_lists_.assign(board_->domains(), FreeList(Cells::none));
-  in_parallel(board_->domains(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t domain = begin; domain < end; ++domain) fill_domain(domain);
-  });
+  each_in_parallel(board_->domains(), threads, [&](std::size_t domain) { fill_domain(domain); });
 }
 
 // Counting sort of all particles into the cells.

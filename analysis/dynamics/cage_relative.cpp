@@ -180,13 +180,11 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
   std::vector<std::optional<LagResult>> sums(lags.size());
   const auto caller = std::this_thread::get_id();
   std::atomic<std::size_t> done = 0;
-  in_parallel(lags.size(), options.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t l = begin; l < end; ++l) {
-      sums[l] =
-          measure(recording, alike, lags[l], result.wave_numbers, options.overlap_distance, bessel);
-      const std::size_t so_far = ++done;
-      if (std::this_thread::get_id() == caller) tell(report, so_far, lags.size(), "lags");
-    }
+  each_in_parallel(lags.size(), options.threads, [&](std::size_t l) {
+    sums[l] =
+        measure(recording, alike, lags[l], result.wave_numbers, options.overlap_distance, bessel);
+    const std::size_t so_far = ++done;
+    if (std::this_thread::get_id() == caller) tell(report, so_far, lags.size(), "lags");
   });
   for (std::size_t l = 0; l < lags.size(); ++l) {
     result.lag.push_back(lags[l].time);

@@ -46,11 +46,9 @@ Series read_modes(Trajectory<Dim>& trajectory, const std::vector<std::array<int,
                         " differs from that of the first; it must stay the same");
       positions[k] = frame.position;
     }
-    in_parallel(count, threads, [&](std::size_t from, std::size_t to) {
-      for (std::size_t k = from; k < to; ++k) {
-        const auto sums = modes.of(positions[k]);
-        for (std::size_t v = 0; v < sums.size(); ++v) series[v][begin + k] = sums[v];
-      }
+    each_in_parallel(count, threads, [&](std::size_t k) {
+      const auto sums = modes.of(positions[k]);
+      for (std::size_t v = 0; v < sums.size(); ++v) series[v][begin + k] = sums[v];
     });
     const double done = static_cast<double>(begin + count);
     if (report) report({done / static_cast<double>(frames), done, "frames"});

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace vitrel {
 
@@ -69,11 +68,6 @@ std::complex<double> sum(const std::vector<Powers>& powers, const std::array<int
 }  // namespace
 
 template <int Dim>
-Vec<Dim> reciprocal_lengths(const PeriodicBox<Dim>& box) {
-  return 2 * std::numbers::pi * box.lengths().cwiseInverse();
-}
-
-template <int Dim>
 DensityModes<Dim>::DensityModes(std::vector<Index> vectors, const PeriodicBox<Dim>& box)
     : vectors_(std::move(vectors)), unit_(reciprocal_lengths(box)) {
   for (const Index& n : vectors_)
@@ -98,8 +92,6 @@ std::vector<std::complex<double>> DensityModes<Dim>::of(
   return sums;
 }
 
-template Vec2 reciprocal_lengths(const PeriodicBox<2>&);
-template Vec3 reciprocal_lengths(const PeriodicBox<3>&);
 template class DensityModes<2>;
 template class DensityModes<3>;
 

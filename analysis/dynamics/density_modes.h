@@ -2,6 +2,7 @@
 
 #include <array>
 #include <complex>
+#include <numbers>
 #include <vector>
 
 #include "core/geometry/periodic_box.h"
@@ -12,7 +13,9 @@ namespace vitrel {
 
 /// The unit 2π/L of the wave vectors along every side.
 template <int Dim>
-Vec<Dim> reciprocal_lengths(const PeriodicBox<Dim>& box);
+Vec<Dim> reciprocal_lengths(const PeriodicBox<Dim>& box) {
+  return 2 * std::numbers::pi * box.lengths().cwiseInverse();
+}
 
 /// ρ_q = Σ_j exp(i q·r_j) for wave vectors q = 2π (n_x/L_x, n_y/L_y …), from powers of exp(2πi x/L) by
 /// multiplication: error below 1e-13 N. Cost about 2 ns per position and wave vector.

@@ -105,17 +105,15 @@ class Pass {
                  std::size_t end) {
     std::vector<std::optional<Path<Dim>>> paths(end - begin);
     const std::size_t stride = lags_.empty() ? 1 : std::max<std::size_t>(1, lags_.front().stride);
-    in_parallel(paths.size(), threads_, [&](std::size_t from, std::size_t to) {
-      for (std::size_t p = from; p < to; ++p)
-        paths[p].emplace(std::move(tracks[begin + p - batch]), first_.shape[begin + p],
-                         quantities_.axes, stride);
+    each_in_parallel(paths.size(), threads_, [&](std::size_t p) {
+      paths[p].emplace(std::move(tracks[begin + p - batch]), first_.shape[begin + p],
+                       quantities_.axes, stride);
     });
     for (const auto& path : paths) largest_turn_ = std::max(largest_turn_, path->largest_turn);
-    in_parallel(lags_.size(), threads_, [&](std::size_t from, std::size_t to) {
-      for (std::size_t l = from; l < to; ++l)
-        for (std::size_t p = 0; p < paths.size(); ++p)
-          species_[static_cast<std::size_t>(first_.species[begin + p])].sums[l].add(
-              *paths[p], alike_.class_of[begin + p]);
+    each_in_parallel(lags_.size(), threads_, [&](std::size_t l) {
+      for (std::size_t p = 0; p < paths.size(); ++p)
+        species_[static_cast<std::size_t>(first_.species[begin + p])].sums[l].add(
+            *paths[p], alike_.class_of[begin + p]);
     });
   }
 
@@ -276,20 +274,11 @@ double main_wave_number(const Configuration<Dim>& configuration) {
                   : 2 * pi * std::sqrt(3.0) * std::cbrt(density / 4);
 }
 
-template <int Dim>
-std::vector<double> wave_numbers_or_main(std::vector<double> given,
-                                         const Configuration<Dim>& configuration) {
-  if (given.empty()) given = {main_wave_number(configuration)};
-  return given;
-}
-
 template Displacements displacements(Trajectory2&, const DisplacementOptions&,
                                      const ProgressReport&);
 template Displacements displacements(Trajectory3&, const DisplacementOptions&,
                                      const ProgressReport&);
 template double main_wave_number(const Configuration2&);
 template double main_wave_number(const Configuration3&);
-template std::vector<double> wave_numbers_or_main(std::vector<double>, const Configuration2&);
-template std::vector<double> wave_numbers_or_main(std::vector<double>, const Configuration3&);
 
 }  // namespace vitrel

@@ -89,6 +89,9 @@ double main_wave_number(const Configuration<Dim>& configuration);
 /// The given wave numbers, or that of main_wave_number if there are none.
 template <int Dim>
 std::vector<double> wave_numbers_or_main(std::vector<double> given,
-                                         const Configuration<Dim>& configuration);
+                                         const Configuration<Dim>& configuration) {
+  if (given.empty()) given = {main_wave_number(configuration)};
+  return given;
+}
 
 }  // namespace vitrel

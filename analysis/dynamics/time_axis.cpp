@@ -188,9 +188,7 @@ std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOpt
   return lags;
 }
 
-template <int Dim>
-std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
-                                     const TimeAxisOptions& options) {
+std::vector<Lag> time_axis_of_motion(const FrameTimes& trajectory, const TimeAxisOptions& options) {
   std::vector<Lag> lags = time_axis(trajectory.times(), options);
   const std::vector<std::size_t> doubtful = trajectory.doubtful_frames();
   const auto spans_doubt = [&](const FramePair& pair) {
@@ -206,8 +204,7 @@ std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
   return lags;
 }
 
-template <int Dim>
-std::vector<Lag> few_lags_of_motion(const Trajectory<Dim>& trajectory, TimeAxisOptions options) {
+std::vector<Lag> few_lags_of_motion(const FrameTimes& trajectory, TimeAxisOptions options) {
   options.max_origins = std::min(options.max_origins, few_origins);
   options.longest_lag = std::min(options.longest_lag, longest_of_few);
   std::vector<Lag> all = time_axis_of_motion(trajectory, options), few;
@@ -222,10 +219,5 @@ std::vector<Lag> few_lags_of_motion(const Trajectory<Dim>& trajectory, TimeAxisO
   }
   return few;
 }
-
-template std::vector<Lag> time_axis_of_motion(const Trajectory<2>&, const TimeAxisOptions&);
-template std::vector<Lag> time_axis_of_motion(const Trajectory<3>&, const TimeAxisOptions&);
-template std::vector<Lag> few_lags_of_motion(const Trajectory<2>&, TimeAxisOptions);
-template std::vector<Lag> few_lags_of_motion(const Trajectory<3>&, TimeAxisOptions);
 
 }  // namespace vitrel

@@ -80,8 +80,7 @@ std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOpt
 /// The lags at which the motion of particles can be evaluated. If the run is not evenly sampled, pairs of frames with a
 /// doubtful frame between them, or at their end, are left out, and so are lags without a pair. An evenly sampled run
 /// keeps all, because its intervals are alike.
-template <int Dim>
-std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
+std::vector<Lag> time_axis_of_motion(const FrameTimes& trajectory,
                                      const TimeAxisOptions& options = {});
 
 /// The most origins that few_lags_of_motion takes, and the longest of its time differences, as a fraction of an evenly
@@ -91,7 +90,6 @@ inline constexpr double longest_of_few = 0.125;
 
 /// Ten of those lags, or fewer, about equally far apart on a logarithmic scale, the shortest and the longest among
 /// them: for functions of more than the time difference. They share origins.
-template <int Dim>
-std::vector<Lag> few_lags_of_motion(const Trajectory<Dim>& trajectory, TimeAxisOptions options);
+std::vector<Lag> few_lags_of_motion(const FrameTimes& trajectory, TimeAxisOptions options);
 
 }  // namespace vitrel

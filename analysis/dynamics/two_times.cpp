@@ -35,10 +35,9 @@ std::vector<TwoTimeAverages> average_two_times(Trajectory<Dim>& trajectory,
       pairs.push_back(read_pair(trajectory, start, lags[l].to(next[l]), next[l]));
       ++next[l];
     }
-    in_parallel(pairs.size(), threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p)
-        for (std::size_t f = 0; f < functions.size(); ++f)
-          sums[at_lag[p]][f].add(functions[f].row(pairs[p]));
+    each_in_parallel(pairs.size(), threads, [&](std::size_t p) {
+      for (std::size_t f = 0; f < functions.size(); ++f)
+        sums[at_lag[p]][f].add(functions[f].row(pairs[p]));
     });
     const double done = static_cast<double>(from + 1);
     if (report) report({done / static_cast<double>(trajectory.frames()), done, "frames"});

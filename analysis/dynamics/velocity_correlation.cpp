@@ -80,13 +80,12 @@ VelocitySums sums_of(Trajectory<Dim>& trajectory, const std::vector<Lag>& lags, 
     const std::size_t end = std::min(begin + batch, n);
     const auto particles = read_components(trajectory, begin, end, count);
     for (std::size_t first = begin; first < end; first += particles_at_once)
-      in_parallel(lags.size(), options.threads, [&](std::size_t from, std::size_t to) {
-        for (std::size_t l = from; l < to; ++l)
-          for (std::size_t i = first; i < std::min(first + particles_at_once, end); ++i) {
-            const std::span<const FrameSeries> both = particles[i - begin];
-            add(sums.translation[l], both.first(Dim), lags[l], alike.class_of[i]);
-            if (rotates) add(sums.rotation[l], both.subspan(Dim), lags[l], alike.class_of[i]);
-          }
+      each_in_parallel(lags.size(), options.threads, [&](std::size_t l) {
+        for (std::size_t i = first; i < std::min(first + particles_at_once, end); ++i) {
+          const std::span<const FrameSeries> both = particles[i - begin];
+          add(sums.translation[l], both.first(Dim), lags[l], alike.class_of[i]);
+          if (rotates) add(sums.rotation[l], both.subspan(Dim), lags[l], alike.class_of[i]);
+        }
       });
     const double done = static_cast<double>(end);
     if (report) report({done / static_cast<double>(n), done, "particles"});

@@ -67,10 +67,9 @@ template <int Dim>
 void measure_batch(const std::vector<Configuration<Dim>>& frames,
                    const FrameObservables<Dim>& observables, int threads) {
   std::vector<std::function<void()>> contributions(frames.size() * observables.size());
-  in_parallel(frames.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      for (std::size_t o = 0; o < observables.size(); ++o)
-        contributions[k * observables.size() + o] = observables[o]->measure(frames[k]);
+  each_in_parallel(frames.size(), threads, [&](std::size_t k) {
+    for (std::size_t o = 0; o < observables.size(); ++o)
+      contributions[k * observables.size() + o] = observables[o]->measure(frames[k]);
   });
   for (const std::function<void()>& add : contributions) add();
 }

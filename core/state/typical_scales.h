@@ -1,5 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/elementary.h"
 #include "core/state/configuration.h"
 
 /// @file
@@ -9,15 +14,37 @@
 namespace vitrel {
 
 /// √(a b), or ∛(a b c).
-double size_of(const Ellipse& shape);
-double size_of(const Ellipsoid& shape);
+inline double size_of(const Ellipse& shape) {
+  return std::sqrt(shape.a * shape.b);
+}
+inline double size_of(const Ellipsoid& shape) {
+  return root(prod(shape.semi_axes), 3);
+}
+
+namespace detail {
+
+/// value(i) of the median particle, in single precision: semi-axes are rounded, but particles of size 1 have the size 1.
+double lower_median(std::size_t count, const auto& value) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) values.push_back(value(i));
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((count - 1) / 2);
+  std::ranges::nth_element(values, middle);
+  return static_cast<float>(*middle);
+}
+
+}  // namespace detail
 
 /// The median size.
 template <int Dim>
-double typical_length(const Configuration<Dim>& configuration);
+double typical_length(const Configuration<Dim>& c) {
+  return detail::lower_median(c.size(), [&](std::size_t i) { return size_of(c.shape[i]); });
+}
 
 /// τ, in which a particle moves by about its own size: of √(m a b/kT), or √(m/kT) ∛(a b c), at kT = 1.
 template <int Dim>
-double typical_time(const Configuration<Dim>& configuration);
+double typical_time(const Configuration<Dim>& c) {
+  return detail::lower_median(
+      c.size(), [&](std::size_t i) { return std::sqrt(c.mass[i]) * size_of(c.shape[i]); });
+}
 
 }  // namespace vitrel

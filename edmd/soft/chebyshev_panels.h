@@ -126,9 +126,8 @@ ChebyshevPanels<Dim, Nodes, Values>::ChebyshevPanels(const Box<Dim>& box, const 
   std::vector<Open> level{{0, box}};
   while (!level.empty()) {
     std::vector<Trial> trials(level.size());
-    in_parallel(level.size(), threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k)
-        trials[k] = interpolate(level[k].box, function, options.tolerance);
+    each_in_parallel(level.size(), threads, [&](std::size_t k) {
+      trials[k] = interpolate(level[k].box, function, options.tolerance);
     });
     std::vector<Open> next;
     for (std::size_t k = 0; k < level.size(); ++k) settle(level[k], trials[k], options, next);

@@ -223,7 +223,7 @@ TEST(TimeAxis, AnIntervalInDoubtTakesOnlyTheLagsThatSpanIt) {
 // farther by one of 50 per decade. All lags have the origins 0, 16, 32 …
 TEST(TimeAxis, FewLagsAreLogarithmicallySpacedAndShareOrigins) {
   DoubtfulTrajectory run(even_times(2001, 1), {});
-  const std::vector<Lag> lags = few_lags_of_motion<2>(run, {});
+  const std::vector<Lag> lags = few_lags_of_motion(run, {});
   ASSERT_EQ(lags.size(), 10u);
   for (std::size_t k = 0; k < 10; ++k) {
     const double steps = static_cast<double>(lags[k].frames);
@@ -235,12 +235,12 @@ TEST(TimeAxis, FewLagsAreLogarithmicallySpacedAndShareOrigins) {
     EXPECT_LT(lags[k].to(lags[k].origins - 1), 2001u);
   }
   DoubtfulTrajectory listed(cycles(40, 1), {});
-  const std::vector<Lag> few = few_lags_of_motion<2>(listed, {});
+  const std::vector<Lag> few = few_lags_of_motion(listed, {});
   EXPECT_LE(few.size(), 10u);
   EXPECT_EQ(few.front().time, 1);
   EXPECT_EQ(few.back().time, time_axis(listed.times()).back().time);
   for (const Lag& lag : few) EXPECT_LE(lag.pairs.size(), 128u);
-  EXPECT_EQ(few_lags_of_motion<2>(DoubtfulTrajectory({0, 1}, {}), {}).size(), 1u);
+  EXPECT_EQ(few_lags_of_motion(DoubtfulTrajectory({0, 1}, {}), {}).size(), 1u);
 }
 
 TEST(TimeAxis, NeedsTwoFrames) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 #include "core/elementary.h"
@@ -41,14 +40,6 @@ ContactParameters load_contact(const ImpactSource& source) {
 void apply_option(TomlNode& root, const std::string& option, const std::string& key,
                   const std::string& value) {
   if (!value.empty()) apply_override(root, key + "=" + value, option + " " + value);
-}
-
-Column column(const std::string& name, const std::string& unit) {
-  return {name, unit, {}, {}};
-}
-
-void add_row(Table& table, const std::array<double, 7>& row) {
-  for (std::size_t k = 0; k < row.size(); ++k) table.columns[k].value.push_back(row[k]);
 }
 
 constexpr Restitution no_value{unknown, unknown, unknown, unknown};
@@ -132,9 +123,13 @@ Table coefficients_on_lattice(const Impact& impact, const RestitutionTable& tabl
                 "Restitution matrix of two soft spheres from the table: ε_r (distance), ε_φ "
                 "(angle), ε_t (duration, in units of the time scale of the force) and ε_ṙ (rate), "
                 "for relative speeds and impact parameters (over the sum of the radii).",
-                {column("relative_speed", "m/s"), column("impact_parameter", "1"),
-                 column("distance", "1"), column("angle", "rad"), column("duration", "1"),
-                 column("rate", "1"), column("contact_time", "s")}};
+                {{"relative_speed", "m/s"},
+                 {"impact_parameter", "1"},
+                 {"distance", "1"},
+                 {"angle", "rad"},
+                 {"duration", "1"},
+                 {"rate", "1"},
+                 {"contact_time", "s"}}};
   Impact at = impact;
   for (int i = 0; i < side; ++i) {
     const double size = within(logarithm(slowest_tabulated), logarithm(fastest_tabulated), i, side);

@@ -279,16 +279,14 @@ Image cast_rays(const Scene& scene, int width, int height) {
   const auto bands = static_cast<std::size_t>((height + band_height - 1) / band_height);
   const std::vector<Edge> edges = scene.in_space ? edges_of(scene) : std::vector<Edge>{};
   const auto bodies = bodies_by_band(scene, raster, bands);
-  in_parallel(bands, all_cores, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const int first_row = static_cast<int>(k) * band_height * rays_per_pixel;
-      Band band(scene, raster, first_row,
-                std::min(first_row + band_height * rays_per_pixel, raster.height));
-      for (const std::uint32_t i : bodies[k]) band.draw(scene.bodies[i]);
-      for (const Edge& edge : edges) band.draw(edge);
-      if (!scene.in_space) band.frame();
-      band.write(image);
-    }
+  each_in_parallel(bands, all_cores, [&](std::size_t k) {
+    const int first_row = static_cast<int>(k) * band_height * rays_per_pixel;
+    Band band(scene, raster, first_row,
+              std::min(first_row + band_height * rays_per_pixel, raster.height));
+    for (const std::uint32_t i : bodies[k]) band.draw(scene.bodies[i]);
+    for (const Edge& edge : edges) band.draw(edge);
+    if (!scene.in_space) band.frame();
+    band.write(image);
   });
   return image;
 }

@@ -140,9 +140,8 @@ FigurePage scaled_maps(ContactParameters::Law law) {
   const bool is_dashpot = law == ContactParameters::Law::linear_dashpot;
   const ScaledAxes& axes = is_dashpot ? dashpot_axes : viscoelastic_axes;
   std::vector<std::vector<double>> rows((1 + dampings) * lattice_size);
-  in_parallel(rows.size(), all_cores, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) rows[k] = scaled_row(axes, form, static_cast<int>(k));
-  });
+  each_in_parallel(rows.size(), all_cores,
+                   [&](std::size_t k) { rows[k] = scaled_row(axes, form, static_cast<int>(k)); });
   std::vector<Figure> figures;
   for (int map = 0; map <= dampings; ++map)
     for (const auto& [column, symbol] : element_columns) {

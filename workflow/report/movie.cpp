@@ -116,9 +116,8 @@ class Camera {
       for (std::size_t k = first; k < std::min(first + frames_at_a_time, frames_.size()); ++k)
         states.push_back(trajectory_.read(frames_[k]));
       std::vector<std::vector<PairImage<Dim>>> overlaps(states.size());
-      in_parallel(states.size(), all_cores, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) overlaps[k] = exact_check(states[k]).overlaps;
-      });
+      each_in_parallel(states.size(), all_cores,
+                       [&](std::size_t k) { overlaps[k] = exact_check(states[k]).overlaps; });
       for (const std::vector<PairImage<Dim>>& pairs : overlaps) mark(pairs);
     }
     return std::move(movie_);

@@ -102,13 +102,11 @@ template <int Dim>
 FigurePage path_of_pair(const Pair<Dim>& pair, double end, int points) {
   const auto count = static_cast<std::size_t>(points);
   std::vector<Row> rows(count);
-  in_parallel(count, all_cores, [&](std::size_t begin, std::size_t behind) {
-    for (std::size_t k = begin; k < behind; ++k) {
-      const double time = end * static_cast<double>(k) / static_cast<double>(count - 1);
-      const PairGap<Dim> at = gap_at(pair, time);
-      rows[k] = {time, at.gap, at.touching_scale};
-      std::ranges::copy(own_values(pair, time, at), std::back_inserter(rows[k]));
-    }
+  each_in_parallel(count, all_cores, [&](std::size_t k) {
+    const double time = end * static_cast<double>(k) / static_cast<double>(count - 1);
+    const PairGap<Dim> at = gap_at(pair, time);
+    rows[k] = {time, at.gap, at.touching_scale};
+    std::ranges::copy(own_values(pair, time, at), std::back_inserter(rows[k]));
   });
   Columns columns = {{"time", "time"}, {"gap", "length"}, {"touching_scale", "1"}};
   std::ranges::copy(own_columns(pair), std::back_inserter(columns));
