@@ -133,7 +133,8 @@ Counts<Dim> place(Configuration<Dim>& configuration, const Lattice<Dim>& lattice
 template <int Dim>
 Vec<Dim> largest_semi_axes(const Configuration<Dim>& configuration) {
   Vec<Dim> largest = Vec<Dim>::Zero();
-  for (const Solid<Dim>& shape : configuration.shape) largest = largest.cwiseMax(semi_axes_of(shape));
+  for (const Solid<Dim>& shape : configuration.shape)
+    largest = largest.cwiseMax(semi_axes_of(shape));
   return largest;
 }
 

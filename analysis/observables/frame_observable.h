@@ -48,8 +48,7 @@ struct FrameObservableType {
 };
 
 /// The tables of all observables of frames, in their order.
-template <int Dim>
-std::vector<Observable> frame_observables();
+std::vector<Observable> frame_observables(int dimension);
 
 /// What the frames of a run say.
 struct FrameResults {

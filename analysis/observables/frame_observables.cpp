@@ -76,11 +76,13 @@ void measure_batch(const std::vector<Configuration<Dim>>& frames,
 
 }  // namespace
 
-template <int Dim>
-std::vector<Observable> frame_observables() {
+std::vector<Observable> frame_observables(int dimension) {
   std::vector<Observable> tables;
-  for (const FrameObservableType<Dim>& type : types<Dim>())
-    tables.insert(tables.end(), type.tables.begin(), type.tables.end());
+  const auto add = [&](const auto& all) {
+    for (const auto& type : all)
+      tables.insert(tables.end(), type.tables.begin(), type.tables.end());
+  };
+  dimension == 2 ? add(types<2>()) : add(types<3>());
   return tables;
 }
 
@@ -128,8 +130,6 @@ Column averaged(const std::string& name, const std::string& unit, const FrameAve
   return {name, unit, std::move(averages.mean), std::move(averages.error)};
 }
 
-template std::vector<Observable> frame_observables<2>();
-template std::vector<Observable> frame_observables<3>();
 template FrameResults measure_frames(Trajectory2&, const StructureOptions&, int,
                                      const ProgressReport&, const std::vector<std::string>&);
 template FrameResults measure_frames(Trajectory3&, const StructureOptions&, int,

@@ -116,7 +116,7 @@ std::vector<Observable> observables(int dimension) {
       dynamics_observables(dimension),
       motion_observables(),
       energy_observables(),
-      dimension == 2 ? frame_observables<2>() : frame_observables<3>(),
+      frame_observables(dimension),
       {{.table = "on_the_fly",
         .what = "The same correlations, measured while the run went on (output.correlations).",
         .has_groups = true},

@@ -126,7 +126,7 @@ TEST(PairCorrelationObservable, AveragesFrames) {
 /// The labels of the chart of that table, whose columns are all there.
 template <int Dim>
 std::vector<std::string> drawn(const std::string& name) {
-  const std::vector<Observable> all = frame_observables<Dim>();
+  const std::vector<Observable> all = frame_observables(Dim);
   const std::vector<Table> tables = pair_tables(gases<Dim>(2, false));
   const Table& table = *std::ranges::find(tables, name, &Table::name);
   const Chart& chart = find(all, name)->charts.at(0);

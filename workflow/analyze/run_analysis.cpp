@@ -212,8 +212,10 @@ RunAnalysis run_analysis(TrajectoryFile<Dim>& trajectory, const std::string& nam
   if (!of_frames.empty() && wanted.has({"relaxation"})) of_frames.emplace_back("order");
   run.structure =
       measure_frames(trajectory, parameters.structure, all_cores, progress.report, of_frames);
-  if (wanted.has({"energies", "compressibility_factor", "summary", "relaxation", "viscosity"}))
-    run.energy = stored_energies(trajectory);
+  if (wanted.has({"energies", "compressibility_factor", "summary", "relaxation", "viscosity"})) {
+    run.energy = observed_energies(reader);
+    if (run.energy.time.empty() && reader.has("velocity")) run.energy = energies(trajectory);
+  }
   run.compressibility = stored_compressibility(reader, run.energy, run.rotations);
   run.diffusion = run.rotational_diffusion = no_coefficient(run.obstacle);
   if (!run.dynamics || !run.dynamics->displacements.parts.displacement) return run;

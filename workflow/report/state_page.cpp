@@ -39,7 +39,7 @@ Json correlation(const NematicCorrelation& correlation) {
 
 std::string state_page(const StatePage& page) {
   const bool in_plane = std::holds_alternative<Movie2>(page.movie);
-  const std::vector<Observable> tables = in_plane ? frame_observables<2>() : frame_observables<3>();
+  const std::vector<Observable> tables = frame_observables(in_plane ? 2 : 3);
   const Json data = {{"label", page.title},
                      {"movie", movie_data(page.movie)},
                      {"charts", charts_data(tables)},

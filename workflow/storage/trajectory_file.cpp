@@ -44,17 +44,6 @@ Observables measure_run(const Frame<Dim>& frame, const std::vector<std::string>&
 template Observables measure_run(const Frame<2>&, const std::vector<std::string>&);
 template Observables measure_run(const Frame<3>&, const std::vector<std::string>&);
 
-template <int Dim>
-EnergySeries stored_energies(TrajectoryFile<Dim>& trajectory) {
-  const TrajectoryReader& reader = trajectory.reader();
-  EnergySeries observed = observed_energies(reader);
-  if (observed.time.empty() && reader.has("velocity")) return energies(trajectory);
-  return observed;
-}
-
-template EnergySeries stored_energies(TrajectoryFile<2>&);
-template EnergySeries stored_energies(TrajectoryFile<3>&);
-
 EnergySeries observed_energies(const TrajectoryReader& reader) {
   if (!reader.has_observable("translational_energy") || !reader.has_observable("rotational_energy"))
     return {};

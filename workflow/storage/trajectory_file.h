@@ -49,9 +49,6 @@ class TrajectoryFile final : public Trajectory<Dim> {
   Configuration<Dim> frame_;
 };
 
-/// From the observables if the file has them, else from the velocities; empty if it has neither.
-template <int Dim>
-EnergySeries stored_energies(TrajectoryFile<Dim>& trajectory);
 /// From the observables; empty if the file has none.
 EnergySeries observed_energies(const TrajectoryReader& reader);
 
