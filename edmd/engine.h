@@ -34,7 +34,7 @@ struct RunCounters {
   std::uint64_t short_flights = 0;    ///< collisions that the contact-time model made elastic
   double spared = 0;                  ///< energy of the normal motion that they would have lost
   double added = 0;     ///< energy that these gave to surfaces that would have stayed together
-  double supplied = 0;  ///< energy gained by kicks (driving.h)
+  double supplied = 0;  ///< energy gained by kicks (brownian.h)
 
   /// Adds the counts that predictions make.
   void add_predictions(const RunCounters& other) {

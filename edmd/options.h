@@ -15,7 +15,7 @@ namespace vitrel {
 class SoftContact;
 
 /// What to do with a pair found overlapping. A hard run never produces one: `stop` throws InvariantError; `correct`
-/// applies the correction move of the thesis (correction_move.h) and counts it.
+/// applies the correction move of the thesis (separate, collision_rule.h) and counts it.
 enum class OnOverlap { stop, correct };
 
 /// Whether a soft particle that is hit while in contact is released alone or together with its partner
@@ -83,7 +83,7 @@ struct InitialEnergies {
   std::vector<double> temperatures = {};  ///< kT by species; empty: 1
 };
 
-/// Random kicks (driving.h).
+/// Random kicks (kick, brownian.h).
 struct Driving {
   double interval = 0.01;  ///< τ, time between kicks
   double power = 1;        ///< P, mean energy supplied to a particle per unit of time

@@ -7,7 +7,7 @@ namespace vitrel {
 /// The value as the parameter file would hold it.
 std::string show(double value);
 
-/// A packing fraction that particles cannot exceed (packing_bound.h), as a number and in words.
+/// A packing fraction that particles cannot exceed (packing_bound), as a number and in words.
 struct PackingBound {
   double value;
   const char* text;

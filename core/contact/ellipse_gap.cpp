@@ -100,6 +100,8 @@ SeparatingAxis<Vec2> find_separating_axis(const EllipsePair& pair) {
   return {f.axis(lambda), false};
 }
 
+template bool improve_axis(const EllipsePair&, Vec2&, GapAlongAxis&);
+
 }  // namespace detail
 
 SupportGap support_gap(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,

@@ -93,6 +93,8 @@ SeparatingAxis<Axis3> find_separating_axis(const EllipsoidPair& pair) {
   return {axis_along(w), false};
 }
 
+template bool improve_axis(const EllipsoidPair&, Axis3&, GapAlongAxis3&);
+
 }  // namespace detail
 
 SupportGap3 support_gap(const Ellipsoid& one, const Quaternion& orientation1, const Ellipsoid& two,

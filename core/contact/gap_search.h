@@ -72,7 +72,7 @@ SeparatingAxis<Axis3> find_separating_axis(const EllipsoidPair& pair);
 /// One damped Newton step of n towards the maximum of g. `here` is gap_along at n, before and after. Returns
 /// false, and changes nothing, if no step improves g.
 template <class Pair, class Axis>
-bool improve_axis(const Pair& pair, Axis& n, decltype(gap_along(pair, n))& here) {
+[[gnu::noinline]] bool improve_axis(const Pair& pair, Axis& n, decltype(gap_along(pair, n))& here) {
   // A gain below the rounding of g = n·d − h₁ − h₂ is not visible.
   constexpr double negligible = 1e-17;
   if (!here.is_concave() || here.gain() < negligible * dot(normal_of(n), pair.d)) return false;
@@ -88,6 +88,10 @@ bool improve_axis(const Pair& pair, Axis& n, decltype(gap_along(pair, n))& here)
   }
   return false;
 }
+
+// Compiled apart: beside the search for contacts, which seldom needs it, it would cost that 2 % of its instructions.
+extern template bool improve_axis(const EllipsePair&, Vec2&, GapAlongAxis&);
+extern template bool improve_axis(const EllipsoidPair&, Axis3&, GapAlongAxis3&);
 
 /// Newton iteration on ∇g = 0 from an axis that maximises g to rounding. g is flat at its maximum, so such an
 /// axis is accurate to √ε only; the gradient makes it accurate to ε.
