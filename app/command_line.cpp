@@ -421,9 +421,11 @@ class CommandLine : public ProgramCommandLine {
                         params_command, params_);
     CLI::Option* of = add_choice(sub, "command", params_.command, commands_with_templates(),
                                  "COMMAND", "prepare, run, analyze, sweep or pair");
-    sub.add_flag("--reference", params_.reference,
-                 "All parameters as Markdown (docs/parameters.md)")
-        ->excludes(of);
+    CLI::Option* reference = sub.add_flag("--reference", params_.reference,
+                                          "All parameters as Markdown (docs/parameters.md)");
+    sub.add_flag("--python", params_.python, "All parameters as classes of the Python package")
+        ->excludes(of)
+        ->excludes(reference->excludes(of));
   }
 
   void add_completion() {

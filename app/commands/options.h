@@ -65,6 +65,7 @@ struct ExportOptions {
 struct ParamsOptions {
   std::string command;     ///< whose template is printed
   bool reference = false;  ///< print docs/parameters.md
+  bool python = false;     ///< print python/vitrel/parameters.py
 };
 
 struct PictureOptions {

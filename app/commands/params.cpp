@@ -15,9 +15,10 @@ std::vector<std::string> commands_with_templates() {
 }
 
 int params_command(const ParamsOptions& options) {
-  if (!options.reference && options.command.empty())
+  if (!options.reference && !options.python && options.command.empty())
     throw UserError("name a command, for example: vitrel params run > params.toml");
   print_text(options.reference           ? parameter_page()
+             : options.python            ? parameter_module()
              : options.command == "pair" ? pair_template()
                                          : command_template(options.command));
   return success;

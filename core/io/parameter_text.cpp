@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/io/parameter_words.h"
 #include "core/io/parameters.h"
 #include "core/io/quantity.h"
 
@@ -114,31 +115,6 @@ std::string inline_text(const FieldVisitor::Inside& inside) {
   InlineWriter writer;
   inside(writer);
   return writer.text();
-}
-
-// Lines of comment, at most `width` wide, each behind `lead`.
-std::string wrapped(const std::string& text, const std::string& lead, std::size_t width = 98) {
-  std::string result, line = lead;
-  std::size_t start = 0;
-  while (start < text.size()) {
-    const std::size_t end = std::min(text.find(' ', start), text.size());
-    const std::string word = text.substr(start, end - start);
-    if (line.size() > lead.size() && line.size() + 1 + word.size() > width) {
-      result += line + "\n";
-      line = lead;
-    }
-    line += (line.size() > lead.size() ? " " : "") + word;
-    start = end + 1;
-  }
-  return result + line + "\n";
-}
-
-// "Sentence. Unit: time. One of …", the explanation of a field.
-std::string explanation(const Field& field, const std::string& choices) {
-  std::string text = field.sentence;
-  if (!choices.empty()) text += " One of " + choices + ".";
-  if (!field.unit.empty()) text += " Unit: " + field.unit + ".";
-  return text;
 }
 
 // The fields of a document, with comments (template) or without (effective parameters).

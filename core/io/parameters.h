@@ -192,6 +192,12 @@ std::string parameter_template(const FieldVisitor::Inside& describe);
 /// The reference page's tables, as Markdown.
 std::string parameter_tables(const FieldVisitor::Inside& describe);
 
+/// Classes of Python: a TypedDict of every section, and a dataclass of every table in one, or several if the table has
+/// several forms, named after the table or the form. No class has a `reserved` name. All are based on names that the text
+/// does not define: Setting, Keys (a table as a mapping), Numbers and Array.
+std::string python_parameters(const FieldVisitor::Inside& describe,
+                              const std::vector<std::string>& reserved);
+
 /// The first dotted key in which two parameter texts (as written by write_parameters) differ, with
 /// both values; keys for which `harmless` holds are passed over.
 struct ParameterDifference {

@@ -139,7 +139,8 @@ TEST_F(HabitsTest, TextThatCannotBePrintedIsAnError) {
                                                {"completion", "bash"},
                                                {"analyze", "--list"},
                                                {"params", "run"},
-                                               {"params", "--reference"}}) {
+                                               {"params", "--reference"},
+                                               {"params", "--python"}}) {
     SCOPED_TRACE(testing::PrintToString(words));
     testing_program::expect_refusal(testing_program::run_on_full_disk(folder.path(), words), 3,
                                     "standard output: cannot be written: No space left on device");

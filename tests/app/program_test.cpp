@@ -400,6 +400,7 @@ TEST(Program, MistakesOnTheCommandLineExitWithTwo) {
                                              {"params"},
                                              {"params", "check"},
                                              {"params", "run", "--reference"},
+                                             {"params", "--python", "--reference"},
                                              {"run", "p.toml", "-o", "r.h5", "--wall-time", "-1"},
                                              {"sweep", "p.toml", "-o", "s", "-j", "0"}})
     expect_refusal(run(folder.path(), arguments), 2, "vitrel");

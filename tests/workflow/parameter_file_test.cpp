@@ -614,6 +614,11 @@ TEST(ParameterFile, TheReferencePageIsUpToDate) {
       << "regenerate it: vitrel params --reference > docs/parameters.md";
 }
 
+TEST(ParameterFile, TheModuleOfThePythonPackageIsUpToDate) {
+  EXPECT_EQ(read_text(source_folder / "python/vitrel/parameters.py"), parameter_module())
+      << "regenerate it: vitrel params --python > python/vitrel/parameters.py";
+}
+
 TEST(ObservablesPage, IsUpToDate) {
   EXPECT_EQ(read_text(source_folder / "docs/observables.md"), observables_page())
       << "regenerate it: vitrel analyze --list > docs/observables.md";

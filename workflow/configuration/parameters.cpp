@@ -302,6 +302,18 @@ std::string parameter_page() {
          parameter_tables(fields(parameters));
 }
 
+std::string parameter_module() {
+  Parameters parameters;
+  return "\"\"\"Settings as Python objects: the sections of the parameter file, and the tables in "
+         "them.\n\n"
+         "Written by `vitrel params --python`; a test compares the two.\n\"\"\"\n\n"
+         "from __future__ import annotations\n\n"
+         "from dataclasses import dataclass\n"
+         "from typing import Any, ClassVar, Literal, Mapping, Sequence, TypedDict\n\n"
+         "from .toml import Array, Keys, Numbers, Setting\n\n" +
+         python_parameters(fields(parameters), {"State", "Table"});
+}
+
 Parameters recorded_parameters(const std::string& text, const std::string& name) {
   Parameters parameters = parse_parameters(text, name);
   if (parameters.system.dimension == 3 && !place_of(parameters, "dynamics.rotation"))

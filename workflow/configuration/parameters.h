@@ -203,6 +203,8 @@ std::vector<std::string> commands_with_parameters();
 std::string command_template(const std::string& command);
 /// The page docs/parameters.md.
 std::string parameter_page();
+/// The module python/vitrel/parameters.py.
+std::string parameter_module();
 
 /// For a run that was begun with `recorded`: keys that are not given, and whose defaults depend on the duration or the
 /// version, stay as they were.
