@@ -13,16 +13,19 @@ with the messages of the program.
 """
 
 from ._vitrel import FileError, InvariantError, UserError, commit, version
-from . import analysis
+from . import analysis, parameters, settings
 from .pairs import Bodies, Contact, Gap, Restitution, first_contact, gap, overlap, restitution
+from .parameters import *
 from .results import Chart, Column, Results, Table
 from .runs import Run, load, run
+from .settings import from_toml, to_toml
 from .states import State, prepare, read
 from .sweeps import Sweep, load_sweep, sweep
 
 __version__ = version
 __all__ = [
     "Bodies", "Chart", "Column", "Contact", "FileError", "Gap", "InvariantError", "Restitution", "Results", "Run", "State",
-    "Sweep", "Table", "UserError", "analysis", "commit", "first_contact", "gap", "load", "load_sweep", "overlap", "prepare", "read",
-    "restitution", "run", "sweep", "version",
+    "Sweep", "Table", "UserError", "analysis", "commit", "first_contact", "from_toml", "gap", "load", "load_sweep", "overlap",
+    "prepare", "read", "restitution", "run", "sweep", "to_toml", "version",
 ]
+__all__ += parameters.__all__

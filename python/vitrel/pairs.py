@@ -6,7 +6,7 @@ from typing import NamedTuple, Optional
 import numpy
 
 from . import _vitrel
-from .settings import toml
+from .toml import toml
 
 
 class Bodies:

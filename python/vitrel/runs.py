@@ -7,15 +7,16 @@ import json
 import operator
 import os
 import pathlib
-from typing import Callable, Iterator, Mapping, Optional, Sequence, SupportsIndex, overload
+from typing import Callable, Iterator, Mapping, Optional, Sequence, SupportsIndex, Unpack, overload
 
 import numpy
 
 from . import _vitrel
 from .observations import Observations
+from .parameters import Import
 from .results import Results, plain_columns, tables_of
-from .settings import listener, overrides
-from .states import State, export_file, start_file
+from .settings import AnalysisSettings, RunSettings, assignments, listener
+from .states import Path, Start, State, export_file, start_and_parameters, start_file
 
 
 class Page:
@@ -179,7 +180,7 @@ class Run(Page):
         """The analysis with the settings that the run was made with."""
         return self.analyze()
 
-    def analyze(self, observe: Optional[Mapping[str, Callable]] = None, **settings) -> Results:
+    def analyze(self, observe: Optional[Mapping[str, Callable]] = None, **settings: Unpack[AnalysisSettings]) -> Results:
         """All tables that the run has what they need for.
 
         Parameters
@@ -188,9 +189,10 @@ class Run(Page):
             Observables of one's own, as of `vitrel.run`, evaluated for all frames. Each becomes a table, and its mean and
             error stand in the summary.
         **settings
-            Keys of `[analysis]`.
+            Keys of `[analysis]` (`vitrel.parameters.Analysis`).
         """
-        text, columns, provenance = _vitrel.analyze(self.path, [*self._imports, *overrides("analysis", settings)])
+        with assignments(Run.analyze, settings) as lines:
+            text, columns, provenance = _vitrel.analyze(self.path, [*self._imports, *lines])
         summary, tables = json.loads(text), tables_of(columns, self.dimension)
         if observe:
             own = Observations(observe).results(self)
@@ -199,8 +201,9 @@ class Run(Page):
         return Results(summary, tables, provenance)
 
 
-def run(start=None, file=None, *, output, observe: Optional[Mapping[str, Callable]] = None,
-        on_frame: Optional[Callable[[State], None]] = None, threads: int = 1, quiet: bool = False, **settings) -> Run:
+def run(start: Start = None, file: Optional[Path] = None, *, output: Path, observe: Optional[Mapping[str, Callable]] = None,
+        on_frame: Optional[Callable[[State], None]] = None, threads: int = 1, quiet: bool = False,
+        **settings: Unpack[RunSettings]) -> Run:
     """Runs a state, or goes on with the run in `output`.
 
     The run is stored with a checkpoint beside it. What was interrupted, by Ctrl-C or an error of a callback, continues with
@@ -209,7 +212,7 @@ def run(start=None, file=None, *, output, observe: Optional[Mapping[str, Callabl
     Parameters
     ----------
     start : State or path, optional
-        Without one the state is prepared as the parameters say.
+        Without one the state is prepared as the parameters say. Or a parameter file, whose name ends with .toml.
     file : path, optional
         A parameter file; without one, all keys have their defaults.
     output : path
@@ -224,8 +227,9 @@ def run(start=None, file=None, *, output, observe: Optional[Mapping[str, Callabl
     quiet : bool
         No progress on the terminal.
     **settings
-        Keys of `[dynamics]` (`kind`, `duration`, `brownian_step` …), `samples` and `correlations`, and any other key with
-        two underscores for every dot. The particles are those of the state.
+        Keys of the parameter file (`vitrel.settings.RunSettings`): those of `[dynamics]` (`kind`, `duration`,
+        `brownian_step` …), `[system]`, `[output]` (`samples`, `correlations` …) and `[prepare]`
+        (`vitrel.parameters.Dynamics`, …), and others as of `prepare`. The particles are those of the state.
     """
     observations = Observations(observe or {})
 
@@ -236,21 +240,23 @@ def run(start=None, file=None, *, output, observe: Optional[Mapping[str, Callabl
             on_frame(state)
 
     say, show, end = listener(quiet)
-    with start_file(start) as path, contextlib.closing(end):
-        summary = _vitrel.run("" if file is None else os.fspath(file), overrides("dynamics", settings), path, os.fspath(output),
-                              threads, say, show, see if observe or on_frame else None)
+    start, file = start_and_parameters(start, file)
+    with start_file(start) as path, contextlib.closing(end), assignments(run, settings) as lines:
+        summary = _vitrel.run(file, lines, path, os.fspath(output), threads, say, show, see if observe or on_frame else None)
     found = Run(output, json.loads(summary))
     if observe:
         found.observed = observations.results(found)
     return found
 
 
-def load(path, **settings) -> Run:
+def load(path: Path, **settings: Unpack[Import]) -> Run:
     """A run that was saved, by vitrel or in any format that `vitrel analyze` reads.
 
     Parameters
     ----------
     **settings
-        Keys of `[import]`, for files of other programs: ``load("run.gsd", unwrap="nearest")``.
+        Keys of `[import]` (`vitrel.parameters.Import`), for files of other programs:
+        ``load("run.gsd", unwrap="nearest")``.
     """
-    return Run(path, imports=overrides("import", settings))
+    with assignments(load, settings) as lines:
+        return Run(path, imports=lines)

@@ -1,77 +1,197 @@
-"""From keyword arguments to keys of the parameter file (docs/parameters.md)."""
+"""From keyword arguments to keys of the parameter file (docs/parameters.md), and from its messages to words of Python."""
 
+import contextlib
+import inspect
+import re
 import sys
+import tomllib
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, TextIO, Tuple, TypedDict, Union
 
-SECTIONS = {"system", "species", "prepare", "dynamics", "output", "analysis", "import", "sweep"}
+from . import parameters
+from ._vitrel import FileError, InvariantError, UserError
+from .toml import Keys, members, objects, python_name, toml, unexpected
 
-# Short names of keys that every study sets.
-SHORT = {
-    "particles": "system.particles", "packing_fraction": "system.packing_fraction", "dimension": "system.dimension",
-    "seed": "system.seed", "aspect_ratio": "species.0.aspect_ratio", "semi_axes": "species.0.semi_axes",
-    "samples": "output.samples", "correlations": "output.correlations",
+
+Drawn = Union[float, parameters.Gaussian, parameters.Lognormal, parameters.Uniform, parameters.PowerLaw, Keys, None]
+
+
+class Shape(TypedDict, total=False):
+    """Keys of the first species, which is the only one unless `species` is given, and `size_spread`, the relative width
+    of a Gaussian distribution of sizes."""
+
+    aspect_ratio: Drawn
+    aspect_ratios: Union[Sequence[Any], None]
+    size: Drawn
+    size_spread: Union[float, None]
+    first_semi_axis: Drawn
+    semi_axes: Union[Sequence[Any], None]
+    mass: Union[float, None]
+    initial_temperature: Union[float, None]
+
+
+class Sections(TypedDict, total=False):
+    """Sections of the parameter file, by their names."""
+
+    system: parameters.System
+    species: Sequence[Union[parameters.Species, Keys]]
+    prepare: parameters.Prepare
+    dynamics: parameters.Dynamics
+    analysis: parameters.Analysis
+    import_: parameters.Import
+    sweep: parameters.Sweep
+
+
+class ParameterFile(Sections, total=False):
+    """A whole parameter file."""
+
+    output: parameters.Output
+
+
+class PrepareSettings(parameters.Prepare, parameters.System, Shape, parameters.Output, Sections, total=False):
+    """Keys of the sections [prepare], [system] and [output], of the first species, and all sections."""
+
+
+class RunSettings(parameters.Dynamics, parameters.System, Shape, parameters.Output, parameters.Prepare, Sections, total=False):
+    """Keys of the sections [dynamics], [system], [output] and [prepare], of the first species, and all sections."""
+
+
+class SweepSettings(RunSettings, parameters.Sweep, total=False):
+    """Those of `run`, and keys of the section [sweep]."""
+
+
+class AnalysisSettings(parameters.Analysis, Sections, total=False):
+    """Keys of the section [analysis], and all sections."""
+
+
+# Whose keys need no section, by function; the first that has the key counts.
+_RUN = ("dynamics", "system", "species", "output", "prepare")
+_SECTIONS = {
+    "prepare": ("prepare", "system", "species", "output"), "run": _RUN, "sweep": (*_RUN, "sweep"), "analyze": ("analysis",),
+    "load": ("import_",), "read": ("import_",),
 }
 
 
-def toml(value):
-    """A value as TOML text."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-        return f'"{escaped}"'
-    if isinstance(value, dict):
-        return "{ " + ", ".join(f"{toml(str(key))} = {toml(item)}" for key, item in value.items()) + " }"
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(toml, value)) + "]"
-    return repr(value)
-
-
-def key_of(section, name):
-    """The dotted key that a keyword argument stands for, which has two underscores for every dot."""
-    first, *others = name.split("__")
-    if first in SHORT:
-        first = SHORT[first]
-    elif first not in SECTIONS:
-        first = f"{section}.{first}"
-    return ".".join([first, *others])
-
-
-def overrides(section, settings):
-    """Assignments of keys: short names, keys of `section`, and keys that begin with any section."""
-    lines = []
-    for name, value in settings.items():
-        if value is None:
+def _misspelt(parts: Sequence[str], hint: Any) -> List[str]:
+    """All names that the first unknown part of a nested key might have been meant to be; none if every part is known."""
+    for k, part in enumerate(parts):
+        if part.isdigit():
             continue
-        if name == "size_spread":
-            name, value = "species__0__size", {"distribution": "gaussian", "mean": 1.0, "standard_deviation": float(value)}
-        lines.append(f"{key_of(section, name)}={toml(value)}")
-    return lines
+        known = members(hint)
+        if part not in known:
+            return ["__".join([*parts[:k], name, *parts[k + 1:]]) for name in known]
+        hint = known[part]
+    return []
+
+
+def _key(function: Callable[..., Any], name: str) -> str:
+    """The dotted key that a keyword argument stands for, which has two underscores for every dot."""
+    parts, candidates = [python_name(part) for part in name.split("__")], list(inspect.signature(function).parameters)
+    for section in (*_SECTIONS[function.__name__], ""):
+        misspelt = _misspelt(parts, members(ParameterFile)[section] if section else ParameterFile)
+        if not misspelt:
+            path = [section, "0", *parts] if section == "species" else [section, *parts] if section else parts
+            return ".".join(part.removesuffix("_") for part in path)
+        candidates += misspelt
+    raise unexpected(function.__name__, name, [*candidates, "size_spread"])
+
+
+def _values(function: Callable[..., Any], settings: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Dotted keys and values; of a whole section one by one, so that the others stay as they are."""
+    for name, value in settings.items():
+        if name == "size_spread" and "species" in _SECTIONS[function.__name__]:
+            name, value = "size", value and parameters.Gaussian(mean=1.0, standard_deviation=float(value))
+        key = _key(function, name)
+        if key in ("sweep.grid", "sweep.together") and value:
+            if twice := sorted(settings.keys() & value.keys()):
+                raise UserError(f"{twice[0]} runs through the values of {name}; leave out one of the two")
+            value = {inner if "." in inner else _key(function, inner): items for inner, items in value.items()}
+        if python_name(key) in members(ParameterFile) and isinstance(value, Mapping):
+            yield from _values(function, {f"{key}__{inner}": item for inner, item in value.items()})
+        elif value is not None:
+            yield key, value
+
+
+def _words(message: str, function: Callable[..., Any], by_species: bool) -> str:
+    """The message with arguments in the place of keys of the parameter file."""
+
+    def argument(match: re.Match[str]) -> str:
+        parts = match[2].split(".")
+        if not match[1] and _misspelt([python_name(part) for part in parts], ParameterFile):
+            return match[0]  # the name of a file
+        known = _SECTIONS[function.__name__]
+        if parts[:2] == ["species", "0"] and "species" in known and not by_species:
+            parts = parts[2:]
+        elif parts[0] != "species" and python_name(parts[0]) in known:
+            parts = parts[1:]
+        return re.sub(r"\.(\d+)", r"[\1]", ".".join(parts))
+
+    sections = "|".join(name.removesuffix("_") for name in members(ParameterFile))
+    return re.sub(rf"\[*(key ')?\b((?:{sections})(?:\.\w+)+)'?\]*", argument, message)
+
+
+@contextlib.contextmanager
+def assignments(function: Callable[..., Any], settings: Mapping[str, Any]) -> Iterator[List[str]]:
+    """Assignments of keys of the parameter file from the keyword arguments of a function.
+
+    An unknown argument is a TypeError. Errors of what is done with the assignments are put in the words of Python.
+    """
+    lines = [f"{key}={toml(value)}" for key, value in _values(function, settings)]
+    try:
+        yield lines
+    except (UserError, FileError, InvariantError) as error:
+        message = str(error).replace("--shrink", "shrink=True")
+        for place in [*(f"--set {line}: " for line in lines), "parameters: "]:
+            if message.startswith(place):
+                message = _words(message.removeprefix(place), function, "species" in settings)
+        if message == str(error):
+            raise
+        raise type(error)(message) from None
+
+
+def from_toml(text: str) -> Dict[str, Any]:
+    """The sections of a parameter file as keyword arguments, with objects for the tables in them.
+
+    >>> vitrel.prepare(**vitrel.from_toml("[[prepare.stage]]\\nmethod = 'insert'\\npacking_fraction = 0.5"))
+    """
+    found: Dict[str, Any] = objects(tomllib.loads(text), ParameterFile)
+    return found
+
+
+def to_toml(sections: Mapping[str, Any]) -> str:
+    """A parameter file with these sections, as `from_toml` gives them.
+
+    >>> vitrel.to_toml({"prepare": {"stage": [vitrel.Insert(packing_fraction=0.5)]}})
+    '[prepare]\\nstage = [{ method = "insert", packing_fraction = 0.5 }]\\n'
+    """
+    text = "".join(f"{name} = {toml(rows)}\n" for name, rows in sections.items() if not isinstance(rows, Mapping))
+    for name, keys in sections.items():
+        if isinstance(keys, Mapping):
+            text += f"[{name.removesuffix('_')}]\n" + "".join(f"{key} = {toml(value)}\n" for key, value in keys.items())
+    return text
 
 
 class _Line:
     """The last line of the terminal, taken off again when the work ends."""
 
-    def __init__(self, stream):
+    def __init__(self, stream: TextIO) -> None:
         self._stream = stream
 
-    def say(self, line):
+    def say(self, line: str) -> None:
         print(f"\r\033[K{line}", file=self._stream)
 
-    def show(self, fraction, quantity, value):
+    def show(self, fraction: float, quantity: str, value: float) -> None:
         print(f"\r\033[K{100 * fraction:5.1f} %  {quantity} {value:.6g}", end="", file=self._stream, flush=True)
 
-    def close(self):
+    def close(self) -> None:
         print("\r\033[K", end="", file=self._stream, flush=True)
 
 
 class _Nothing:
-    def close(self):
+    def close(self) -> None:
         pass
 
 
-def listener(quiet):
+def listener(quiet: bool) -> Tuple[Optional[Callable[[str], None]], Optional[Callable[[float, str, float], None]], Union[_Line, _Nothing]]:
     """The callbacks of a piece of work, on a terminal: lines about its steps, its progress, and what is closed at its end."""
     if quiet or not sys.stderr.isatty():
         return None, None, _Nothing()

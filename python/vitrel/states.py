@@ -4,12 +4,15 @@ import contextlib
 import functools
 import os
 import pathlib
+import re
 import tempfile
+from typing import Iterator, Optional, Tuple, Union, Unpack
 
 import numpy
 
 from . import _vitrel
-from .settings import listener, overrides
+from .parameters import Import
+from .settings import PrepareSettings, assignments, listener
 
 
 class State:
@@ -212,49 +215,69 @@ def export_file(source, path, dimension, format=None, frames=None, shrink=None, 
     _vitrel.export_file(source, path, name, frames, shrink, voxels, images, imports)
 
 
+Start = Union[State, str, "os.PathLike[str]", None]
+Path = Union[str, "os.PathLike[str]"]
+
+
 @contextlib.contextmanager
-def start_file(start):
+def start_file(start: Start) -> Iterator[Optional[str]]:
     """The file of a state to start from, for as long as it is needed; None if there is none."""
     if not isinstance(start, State):
         yield None if start is None else os.fspath(start)
         return
     with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder, "state.h5")
+        path = os.path.join(folder, "state.h5")
         start.write(path)
-        yield str(path)
+        try:
+            yield path
+        except (_vitrel.UserError, _vitrel.FileError, _vitrel.InvariantError) as error:
+            raise type(error)(re.sub(rf"(--from )?{re.escape(path)}", "start", str(error))) from None
 
 
-def prepare(file=None, *, start=None, shrink=False, threads=1, quiet=False, **settings):
+def start_and_parameters(start: Start, file: Optional[Path]) -> Tuple[Start, str]:
+    """What is called `start` may be the parameter file. Its path is empty if there is none."""
+    if start is None or isinstance(start, State) or not os.fspath(start).endswith(".toml"):
+        return start, "" if file is None else os.fspath(file)
+    if file is not None:
+        raise TypeError("start is a parameter file, and so is file; give one of them")
+    return None, os.fspath(start)
+
+
+def prepare(start: Start = None, file: Optional[Path] = None, *, shrink: bool = False, threads: int = 1, quiet: bool = False,
+            **settings: Unpack[PrepareSettings]) -> State:
     """Prepares a state.
 
     Parameters
     ----------
+    start : State or path, optional
+        A state to start from, instead of inserting particles; or a parameter file, whose name ends with .toml.
     file : path, optional
         A parameter file; without one, all keys have their defaults.
-    start : State or path, optional
-        A state to start from, instead of inserting particles.
     shrink : bool
         Shrinks that state until no particles overlap.
     **settings
-        Keys of the parameter file: `particles`, `packing_fraction`, `dimension`, `seed`, `aspect_ratio`, `semi_axes` and
-        `size_spread` (a Gaussian distribution), keys of `[prepare]`, and any other with two underscores for every dot:
-        ``prepare(system__particles=1000)``.
+        Keys of the parameter file (`vitrel.settings.PrepareSettings`): those of `[prepare]`, `[system]` and `[output]`
+        (`vitrel.parameters.Prepare`, …), those of the one species, such as `aspect_ratio`, `semi_axes`, `size` and
+        `size_spread` (the standard deviation of a Gaussian distribution), and any other by a mapping for its section or
+        with two underscores for every dot: ``prepare(dynamics={"duration": 10})``, ``prepare(dynamics__duration=10)``.
 
     Returns
     -------
     State
     """
     say, show, end = listener(quiet)
-    with start_file(start) as path, contextlib.closing(end):
-        state, parameters = _vitrel.prepare("" if file is None else os.fspath(file), overrides("prepare", settings), path,
-                                            shrink, threads, say, show)
+    start, file = start_and_parameters(start, file)
+    with start_file(start) as path, contextlib.closing(end), assignments(prepare, settings) as lines:
+        state, parameters = _vitrel.prepare(file, lines, path, shrink, threads, say, show)
     return State(state, parameters)
 
 
-def read(path, frame=-1, **settings):
+def read(path: Path, frame: int = -1, **settings: Unpack[Import]) -> State:
     """A state from a file of any format that `vitrel prepare --from` reads; of a trajectory this frame.
 
-    `settings` are keys of `[import]`, for files of other programs: ``read("state.csv", length_unit=1e-6)``.
+    `settings` are keys of `[import]` (`vitrel.parameters.Import`), for files of other programs:
+    ``read("state.csv", length_unit=1e-6)``.
     """
-    frames = _vitrel.Frames(os.fspath(path), overrides("import", settings))
-    return State(frames[frame if frame >= 0 else len(frames) + frame], frames.parameters)
+    with assignments(read, settings) as lines:
+        frames = _vitrel.Frames(os.fspath(path), lines)
+        return State(frames[frame if frame >= 0 else len(frames) + frame], frames.parameters)

@@ -7,12 +7,13 @@ import os
 import pathlib
 import shutil
 import sysconfig
-from typing import List, Mapping, Optional, Sequence
+from typing import List, Optional, Unpack
 
 from . import _vitrel
 from .results import Results, tables_of
 from .runs import Page, Run
-from .settings import listener, overrides, toml
+from .settings import AnalysisSettings, SweepSettings, assignments, listener
+from .states import Path
 
 
 class Sweep(Page):
@@ -30,7 +31,7 @@ class Sweep(Page):
     def __repr__(self) -> str:
         return f"<Sweep {self.path}>"
 
-    def analyze(self, **settings) -> Results:
+    def analyze(self, **settings: Unpack[AnalysisSettings]) -> Results:
         """What the runs say together.
 
         Table `runs` has a row for each, with all averages; `relaxation` and `glass_fit` are relaxation times, verdicts and
@@ -39,7 +40,8 @@ class Sweep(Page):
         return self._analyze(settings)[0]
 
     def _analyze(self, settings):
-        summary, tables, provenance, files, unfinished = _vitrel.analyze_sweep(self.path, overrides("analysis", settings))
+        with assignments(Sweep.analyze, settings) as lines:
+            summary, tables, provenance, files, unfinished = _vitrel.analyze_sweep(self.path, lines)
         results = Results(json.loads(summary), tables_of(tables, Run(files[0]).dimension), provenance)
         return results, files, unfinished
 
@@ -63,8 +65,8 @@ class Sweep(Page):
         return self._analysis[2]
 
 
-def sweep(file=None, *, output, grid: Optional[Mapping[str, Sequence]] = None, parallel: Optional[int] = None,
-          program=None, quiet: bool = False, **settings) -> Sweep:
+def sweep(file: Optional[Path] = None, *, output: Path, parallel: Optional[int] = None, program: Optional[Path] = None,
+          quiet: bool = False, **settings: Unpack[SweepSettings]) -> Sweep:
     """Prepares, runs and analyses all jobs of a sweep; what is complete is left alone, and what was cut off continues.
 
     Parameters
@@ -73,27 +75,23 @@ def sweep(file=None, *, output, grid: Optional[Mapping[str, Sequence]] = None, p
         A parameter file; without one, all keys have their defaults.
     output : path
         The folder, with a folder in it for each job.
-    grid : mapping of str to sequence, optional
-        Keys with dots and the values that they run through, each with every value of the others:
-        ``{"system.packing_fraction": [0.5, 0.6]}``.
     parallel : int, optional
         Jobs at a time; by default as many as there are processors.
     program : path, optional
         The program `vitrel`, which works on the jobs; by default the one that was installed with the package, or
         that the shell would find.
     **settings
-        As of `vitrel.run`.
+        Keys of the parameter file (`vitrel.settings.SweepSettings`): those of `[sweep]` (`vitrel.parameters.Sweep`), and
+        all of `vitrel.run`. The keys of `grid` and `together` are keyword arguments of `run`, or keys with dots:
+        ``grid={"packing_fraction": [0.5, 0.6], "species.0.aspect_ratio": [2, 3]}``.
     """
     # A virtual environment need not be in the path.
     program = program or shutil.which("vitrel", path=sysconfig.get_path("scripts")) or shutil.which("vitrel")
     if program is None:
         raise _vitrel.FileError("the program vitrel, which works on the jobs of a sweep, is not in the path; give its place as "
                                 "program=")
-    lines = overrides("dynamics", settings)
-    if grid:
-        lines.append(f"sweep.grid={toml(dict(grid))}")
     say, show, end = listener(quiet)
-    with contextlib.closing(end):
+    with contextlib.closing(end), assignments(sweep, settings) as lines:
         done, failed = _vitrel.sweep("" if file is None else os.fspath(file), lines, os.fspath(output), os.fspath(program),
                                      parallel or os.cpu_count() or 1, say, show)
     if failed:
