@@ -8,8 +8,8 @@ A state is prepared from parameters, or made from arrays or a file; a run follow
 >>> run.analyze()["displacements_all"]["msd"]
 
 Lengths are in units of √(a b) (in space ∛(a b c)) of a particle of size 1, times in √(m ℓ²/kT) of that length ℓ.
-Mistakes raise `UserError`, files that cannot be read or written `FileError`, overlaps in a hard run `InvariantError`,
-with the messages of the program.
+An unknown argument is a `TypeError`. Other mistakes raise `UserError`, files that cannot be read or written `FileError`,
+overlaps in a hard run `InvariantError`.
 """
 
 from ._vitrel import FileError, InvariantError, UserError, commit, version

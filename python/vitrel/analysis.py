@@ -9,17 +9,17 @@ States are in the order of time, and of the same particles. Keyword arguments ar
 import json
 import pathlib
 import tempfile
-from typing import Iterable, Optional
+from typing import Iterable, Optional, Unpack
 
 import numpy
 
 from . import _vitrel
 from .results import Results, Table, tables_of
-from .settings import overrides
+from .settings import AnalysisSettings, assignments
 from .states import State
 
 
-def analyze(states: Iterable[State], **settings) -> Results:
+def analyze(states: Iterable[State], **settings: Unpack[AnalysisSettings]) -> Results:
     """All tables that the states have what they need for; `only="structure_factor,order"` chooses some."""
     states = [states] if isinstance(states, State) else list(states)
     if not states:
@@ -27,7 +27,8 @@ def analyze(states: Iterable[State], **settings) -> Results:
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "states.h5")
         _vitrel.write_run(file, [state._state for state in states])
-        text, columns, provenance = _vitrel.analyze(file, overrides("analysis", settings))
+        with assignments(analyze, settings) as lines:
+            text, columns, provenance = _vitrel.analyze(file, lines)
     return Results(json.loads(text), tables_of(columns, states[0].dimension), provenance)
 
 
@@ -36,32 +37,33 @@ def _table(states, name, settings) -> Table:
     return results[name if name in results else f"{name}_all"]
 
 
-def structure_factor(states, **settings) -> Table:
+def structure_factor(states, **settings: Unpack[AnalysisSettings]) -> Table:
     """S(q), its parts of species, and that of the orientations, averaged over the states."""
     return _table(states, "structure_factor", settings)
 
 
-def pair_correlation(states, **settings) -> Table:
+def pair_correlation(states, **settings: Unpack[AnalysisSettings]) -> Table:
     """g(r), its parts of species, and the orientational correlation g₂(r) or its like in space."""
     return _table(states, "pair_correlation", settings)
 
 
-def order(states, **settings) -> Table:
+def order(states, **settings: Unpack[AnalysisSettings]) -> Table:
     """Nematic and, in the plane, hexatic order, a row for each state."""
     return _table(states, "order", settings)
 
 
-def displacements(states, **settings) -> Table:
+def displacements(states, **settings: Unpack[AnalysisSettings]) -> Table:
     """Mean squared displacements and rotations of all particles, with errors."""
     return _table(states, "displacements", settings)
 
 
-def self_scattering(states, **settings) -> Table:
+def self_scattering(states, **settings: Unpack[AnalysisSettings]) -> Table:
     """F_s(q, t) at `wave_numbers`."""
     return _table(states, "self_scattering", settings)
 
 
-def msd(positions, times, box: Optional[Iterable[float]] = None, *, angle=None, semi_axes=None, **settings) -> Table:
+def msd(positions, times, box: Optional[Iterable[float]] = None, *, angle=None, semi_axes=None,
+        **settings: Unpack[AnalysisSettings]) -> Table:
     """The mean squared displacement of points, or of bodies and their rotation, from arrays.
 
     Parameters

@@ -323,6 +323,53 @@ TEST(Parameters, TheReferenceTablesHaveEveryField) {
     EXPECT_THAT(text, HasSubstr(row));
 }
 
+TEST(Parameters, SectionsAndTablesAreClassesOfPython) {
+  Everything defaults;
+  const std::string text = python_parameters(fields(defaults), {"Sample"});
+  for (const char* part :
+       {"__all__ = [\n    \"Spread\", \"Samples\", \"Part\"\n]\n",
+        "class System(TypedDict, total=False):\n    \"\"\"The system.\n\n"
+        "    particles: Number of particles. Default: 100.\n",
+        "    density: Density. Unit: 1/area. Default: 0.5.\n", "    velocities: bool\n",
+        "    kind: Literal[\"gas\", \"crystal\"]\n    atoms_per_cell: int\n    axes: Numbers\n",
+        "    spread: float | Spread | Keys\n    stiffness: str\n    samples: Samples | Keys\n",
+        "@dataclass(kw_only=True)\nclass Samples(Setting):\n    \"\"\"Samples.\n\n"
+        "    interval: Interval. Unit: time.\n    \"\"\"\n\n    interval: float = 0.1\n",
+        "    name: str = \"A\"\n    mass: float | None = None\n"})
+    EXPECT_THAT(text, HasSubstr(part));
+}
+
+// A table of two forms; `least` is the default of a key of both.
+void describe_forms(double least, FieldVisitor& visit) {
+  std::size_t form = 0;
+  double size = 1;
+  static constexpr const char* names[] = {"round", "far_off"};
+  visit.choice({"form", "", "Form. round: a circle; far_off: another thing."}, form, names);
+  visit.when(form == 0, "form = \"round\"", [&](FieldVisitor& in) {
+    in.field({"size", "", "Size."}, size);
+  });
+  visit.field({"least", "", "Least."}, least);
+}
+
+TEST(Parameters, EveryFormOfATableIsAClassOfPython) {
+  const std::string text = python_parameters(
+      [](FieldVisitor& visit) {
+        visit.table({"all", "", "All."}, FieldVisitor::TableStyle::section, [](FieldVisitor& in) {
+          for (const char* key : {"one", "two"})
+            in.table({key, "", "Table."}, FieldVisitor::TableStyle::inline_table,
+                     [&](FieldVisitor& table) { describe_forms(key[0] == 'o' ? 1 : 2, table); });
+        });
+      },
+      {"Round"});
+  EXPECT_THAT(text, HasSubstr("__all__ = [\n    \"RoundOne\", \"FarOff\", \"RoundTwo\"\n]\n"));
+  EXPECT_THAT(text,
+              HasSubstr("class FarOff(Setting):\n    \"\"\"Another thing.\n\n    least: Least.\n"
+                        "    \"\"\"\n\n    _form: ClassVar = (\"form\", \"far_off\")\n"
+                        "    least: float | None = None\n"));
+  EXPECT_THAT(text,
+              HasSubstr("    one: RoundOne | FarOff | Keys\n    two: RoundTwo | FarOff | Keys\n"));
+}
+
 TEST(Parameters, TheFirstDifferenceIsNamedUnlessHarmless) {
   const std::string first = "[a]\nx = 1\ny = 2\n";
   const std::string second = "[a]\nx = 3\ny = 4\nz = 5\n";
