@@ -178,8 +178,8 @@ def test_other_threads_go_on_meanwhile(tmp_path):
 def test_mistakes_are_those_of_the_program(tmp_path):
     with pytest.raises(vitrel.UserError, match="packing_fraction"):
         vitrel.prepare(particles=10, packing_fraction=2.0, aspect_ratio=1)
-    with pytest.raises(vitrel.UserError, match="unknown"):
-        vitrel.run(output=tmp_path / "x.h5", no_such_key=1)
+    with pytest.raises(vitrel.UserError, match="kind is \"gas\", but must be one of"):
+        vitrel.run(output=tmp_path / "x.h5", kind="gas")
     with pytest.raises(vitrel.FileError, match="missing"):
         vitrel.load(tmp_path / "missing.h5")
     assert os.listdir(tmp_path) == []
