@@ -99,9 +99,9 @@ def _values(function: Callable[..., Any], settings: Mapping[str, Any]) -> Iterat
     """Dotted keys and values; of a whole section one by one, so that the others stay as they are."""
     for name, value in settings.items():
         if name == "size_spread" and "species" in _SECTIONS[function.__name__]:
-            name, value = "size", value and parameters.Gaussian(mean=1.0, standard_deviation=float(value))
+            name, value = "size", None if value is None else parameters.Gaussian(mean=1.0, standard_deviation=value)
         key = _key(function, name)
-        if key in ("sweep.grid", "sweep.together") and value:
+        if key in ("sweep.grid", "sweep.together") and isinstance(value, Mapping):
             if twice := sorted(settings.keys() & value.keys()):
                 raise UserError(f"{twice[0]} runs through the values of {name}; leave out one of the two")
             value = {inner if "." in inner else _key(function, inner): items for inner, items in value.items()}
@@ -126,7 +126,8 @@ def _words(message: str, function: Callable[..., Any], by_species: bool) -> str:
         return re.sub(r"\.(\d+)", r"[\1]", ".".join(parts))
 
     sections = "|".join(name.removesuffix("_") for name in members(ParameterFile))
-    return re.sub(rf"\[*(key ')?\b((?:{sections})(?:\.\w+)+)'?\]*", argument, message)
+    message = re.sub(r"; write \[\[.*\]\]$", "", message)
+    return re.sub(rf"\[*(?:(key ')|')?\b((?:{sections})(?:\.\w+)+)'?\]*", argument, message)
 
 
 @contextlib.contextmanager

@@ -32,12 +32,12 @@ def toml(value: Any) -> str:
     if isinstance(value, (str, os.PathLike)):
         return json.dumps(os.fspath(value), ensure_ascii=False)
     if isinstance(value, (int, float)):
-        return repr(value)
+        return repr(value if abs(value) < 2**63 else float(value))
     if isinstance(value, Setting):
         value = value.to_dict()
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_key(str(key))} = {toml(item)}" for key, item in value.items()) + " }"
-    if isinstance(value, Sequence):
+    if isinstance(value, Sequence) and not isinstance(value, bytes):
         return "[" + ", ".join(map(toml, value)) + "]"
     raise TypeError(f"{value!r} cannot be the value of a parameter; numbers, strings, sequences and mappings can")
 

@@ -74,6 +74,10 @@ def test_functions_and_objects_know_their_arguments(tmp_path):
     ({"particles": "many"}, 'particles must be an integer, not the string "many"; for example particles = 1000'),
     ({"stage": [vitrel.Insert(), vitrel.Grow(growth_rate=-1)]},
      "stage[1].growth_rate is -1.0, but must lie above 0 and not above 1, where the surfaces are as fast as the particles"),
+    ({"seed": 10**30}, "seed must be an integer, not the number 1e+30; for example seed = 1"),
+    ({"stage": {"method": "grow"}}, "stage must be an array of tables, not a table"),
+    ({"size_spread": "wide"}, 'size.standard_deviation must be a number, not the string "wide"; for example '
+                              'standard_deviation = 0.1'),
     ({"stage": [{"methd": "grow"}]}, "stage[0].methd is unknown; did you mean 'method'? known keys: method, packing_fraction, "
                                      "attempts, orientations"),
     ({"size": vitrel.Uniform(low=2, high=1)}, "size.high is 1.0, but must be above low = 2.0"),
