@@ -1,4 +1,7 @@
-"""The image of Containerfile: built without a registry, and run."""
+"""`scripts/container` made the image in {seconds:.0f} s (buildah, isolation `chroot`). It takes {size}
+and has no compiler. `vitrel --version` says {version}; a run of an example passes the exact check and names
+the commit.
+"""
 
 import json
 import subprocess
@@ -8,6 +11,7 @@ from validation.bare_system import require_root, timed
 from validation.common import ROOT, expect, output_of, settings
 
 TITLE = "In a container"
+INPUTS = ["CMakeLists.txt", "Containerfile", "cmake", "scripts/container"]
 
 
 def in_container(container, *command):
@@ -39,6 +43,5 @@ def check(container, commit, seconds):
     expect(summary["overlaps"] == 0, "the run has overlaps")
     expect(commit in in_container(container, "grep", "-a", "-o", commit, "/run.h5"), "the run is of another commit")
     size = json.loads(output_of(["buildah", "images", "--json", "localhost/vitrel"]))[0]["size"]
-    return f"""`scripts/container` made the image in {seconds:.0f} s (buildah, isolation `chroot`). It takes {size}
-and has no compiler. `vitrel --version` says {version}; a run of an example passes the exact check and names
-the commit."""
+    return {"seconds": seconds, "size": size, "version": version}
+

@@ -1,4 +1,11 @@
-"""Error bars against the scatter of seeds: every quantity with a stated error, in runs that differ in their seed."""
+"""{seeds} runs of each system differ in nothing but their seed. Scatter of the runs over their stated error, pooled
+over the points of a curve, with its 95 % interval, and the share of values within one stated error of the mean, which
+should be 68 %. All ratios lie between {LEAST} and {MOST}. "none": most runs are too short for an error, and state none.
+
+{bias}
+
+{table}
+"""
 
 import json
 import math
@@ -9,6 +16,7 @@ import textwrap
 from validation.common import POWER_LAW, expect, summary_of, table
 
 TITLE = "Error bars against the scatter of seeds"
+INPUTS = ["analysis", "core", "edmd", "mc", "workflow/analyze", "workflow/run"]
 SEEDS = range(1, 161)
 # Scatter over stated error. With 160 seeds of normal values the ratio itself has an error of 6 %.
 LEAST, MOST = 0.8, 1.25
@@ -211,12 +219,5 @@ def measure(build):
     expect(len(refused) <= MOST_REFUSED, f"{len(refused)} quantities are refused: " + ", ".join(refused))
     rows = [[quantity, *(of_systems[system].cell() if system in of_systems else "" for system in SYSTEMS)]
             for quantity, of_systems in sorted(judged.items())]
-    return f"""
-{len(SEEDS)} runs of each system differ in nothing but their seed. Scatter of the runs over their stated error, pooled
-over the points of a curve, with its 95 % interval, and the share of values within one stated error of the mean, which
-should be 68 %. All ratios lie between {LEAST} and {MOST}. "none": most runs are too short for an error, and state none.
-
-{bias_text(relaxation_times)}
-
-{table(["quantity", *(system.replace("_", " ") for system in SYSTEMS)], rows)}
-"""
+    head = ["quantity", *(system.replace("_", " ") for system in SYSTEMS)]
+    return {"seeds": len(SEEDS), "bias": bias_text(relaxation_times), "table": table(head, rows)}

@@ -1,5 +1,9 @@
-"""Damaged files for every reader of the program, under the address and undefined-behaviour sanitizers. Each kind of file
-is a part; build/fuzz keeps its result, and the table shows all parts that were measured.
+"""Files are damaged at random: bits, bytes, lines and numbers change, parts are removed, repeated or exchanged; HDF5 files
+also lose objects, or get others of another type, shape or value. A command of `vitrel` reads each, under the address and
+undefined-behaviour sanitizers. A finding is a crash, an input that takes more than 5 s of processor time, an exit code other
+than 0, 2, 3, 4 and 5, or a refusal with no message or more than three lines.
+
+{table}
 """
 
 import concurrent.futures
@@ -11,8 +15,9 @@ import subprocess
 from validation.common import ROOT, Failure, output_of, table
 
 TITLE = "Damaged files"
+INPUTS = ["tests/fuzz", "core/io", "workflow"]
 
-INPUTS = 100_000
+COUNT = 100_000
 TARGETS = {
     "parameters": "parameter files",
     "pairs": "files of pairs",
@@ -25,7 +30,7 @@ TARGETS = {
     "h5md": "H5MD of other programs",
     "lammps": "dumps and data files of LAMMPS",
 }
-PARTS = tuple(TARGETS)
+PARTS = tuple(TARGETS)  # of which each keeps its result in build/fuzz; the table shows all that were measured
 KEPT = ROOT / "build" / "fuzz"
 
 
@@ -50,8 +55,8 @@ def findings(program, target, inputs):
 def measure_target(program, target, pool):
     """All cores share the inputs of one target."""
     result_file(target).unlink(missing_ok=True)
-    share = -(-INPUTS // os.cpu_count())
-    ranges = [range(first, min(first + share, INPUTS)) for first in range(0, INPUTS, share)]
+    share = -(-COUNT // os.cpu_count())
+    ranges = [range(first, min(first + share, COUNT)) for first in range(0, COUNT, share)]
     found = sum(pool.map(lambda inputs: findings(program, target, inputs), ranges))
     commit = output_of(["git", "-C", ROOT, "rev-parse", "--short=8", "HEAD"]).strip()
     KEPT.mkdir(parents=True, exist_ok=True)
@@ -66,7 +71,7 @@ def row(target):
     if not result_file(target).exists():
         return [TARGETS[target], "not measured", "", ""]
     result = json.loads(result_file(target).read_text(encoding="utf-8"))
-    return [TARGETS[target], f"{INPUTS:,}".replace(",", " "), result["findings"], result["commit"]]
+    return [TARGETS[target], f"{COUNT:,}".replace(",", " "), result["findings"], result["commit"]]
 
 
 def measure(_build, parts=PARTS):
@@ -75,10 +80,4 @@ def measure(_build, parts=PARTS):
         for target in parts:
             measure_target(program, target, pool)
     rows = [row(target) for target in TARGETS]
-    return f"""Files are damaged at random: bits, bytes, lines and numbers change, parts are removed, repeated or exchanged; HDF5 files
-also lose objects, or get others of another type, shape or value. A command of `vitrel` reads each, under the address and
-undefined-behaviour sanitizers. A finding is a crash, an input that takes more than 5 s of processor time, an exit code other
-than 0, 2, 3, 4 and 5, or a refusal with no message or more than three lines.
-
-{table(["files", "inputs", "findings", "commit"], rows)}
-"""
+    return {"table": table(["files", "inputs", "findings", "commit"], rows)}

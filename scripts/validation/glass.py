@@ -8,7 +8,8 @@ import tempfile
 import textwrap
 import tomllib
 
-from validation.common import COLOURS, PARAMS, ROOT, estimate, expect, output_of, pyplot, settings, summary_of, table, write_figure
+from figures import COLOURS, pyplot, write_figure
+from validation.common import PARAMS, ROOT, estimate, expect, output_of, settings, summary_of, table
 
 TITLE = "The glass"
 PAGE = ROOT / "docs" / "glass.md"

@@ -1,4 +1,15 @@
-"""The packages in a bare Debian: from `apt install` to the picture of the demo, Python, and a client of the libraries."""
+"""In a Debian system that has only what apt needs (debootstrap, variant minbase), without a compiler, the package
+`vitrel` was installed, the sweep of `params/demo.toml` run, and its page written:
+
+{steps}
+
+At most {LIMIT} s are allowed. The load of the machine before was {load:.1f}, with {processors} processors. Then a state was prepared in
+Python with `python3-vitrel`, `vitrel bench` ran `vitrel-bench`, and the client of `tests/clients/find_package` was built
+with `libvitrel-dev` and ran. The dynamic linker takes the build for x86-64-v3 where the processor has AVX2, and the other
+one under the mask of an old processor. Nothing stays when the packages are removed. Sizes of the packages:
+
+{sizes}
+"""
 
 import os
 import pathlib
@@ -9,6 +20,7 @@ from validation.bare_system import bare_system, inside, install, require_root, t
 from validation.common import OLD_PROCESSOR, ROOT, expect, expect_chart, table
 
 TITLE = "The packages in a bare Debian"
+INPUTS = ["CMakeLists.txt", "cmake", "scripts/release", "pyproject.toml"]
 PACKAGES = ROOT / "build/packages"
 LIMIT = 120  # seconds from `apt install` to the page
 SUITE = "bookworm"
@@ -85,14 +97,6 @@ def check(packages):
         check_removal(root)
     expect(total <= LIMIT, f"{total:.0f} s from apt install to the page, more than {LIMIT} s")
     sizes = [(f"`{file.name}`", f"{file.stat().st_size / 1e6:.2f}") for file in sorted(packages.glob("*.deb"))]
-    return f"""In a Debian system that has only what apt needs (debootstrap, variant minbase), without a compiler, the package
-`vitrel` was installed, the sweep of `params/demo.toml` run, and its page written:
-
-{table(["step", "s"], [*((step, f"{seconds:.1f}") for step, seconds in steps.items()), ("together", f"{total:.1f}")])}
-
-At most {LIMIT} s are allowed. The load of the machine before was {load:.1f}, with {os.cpu_count()} processors. Then a state was prepared in
-Python with `python3-vitrel`, `vitrel bench` ran `vitrel-bench`, and the client of `tests/clients/find_package` was built
-with `libvitrel-dev` and ran. The dynamic linker takes the build for x86-64-v3 where the processor has AVX2, and the other
-one under the mask of an old processor. Nothing stays when the packages are removed. Sizes of the packages:
-
-{table(["package", "MB"], sizes)}"""
+    rows = [(step, f"{seconds:.1f}") for step, seconds in (*steps.items(), ("together", total))]
+    return {"steps": table(["step", "s"], rows), "load": load, "processors": os.cpu_count(),
+            "sizes": table(["package", "MB"], sizes)}

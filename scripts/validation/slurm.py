@@ -3,6 +3,7 @@
 from validation.common import ROOT, output_of
 
 TITLE = "A sweep through Slurm"
+INPUTS = ["scripts/slurm_sweep", "workflow/sweep"]
 
 
 def measure(build):

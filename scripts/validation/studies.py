@@ -8,9 +8,13 @@ import sys
 import tempfile
 import urllib.parse
 
-from validation.common import ROOT, carnahan_starling, expect, output_of
+from validation.common import ROOT, expect, output_of
+from validation.literature import carnahan_starling
 
 TITLE = "Studies"
+INPUTS = {"overlap": ["bench", "core"], "contact-time": ["bench", "core"], "whole-run": ["bench", "core", "edmd"],
+          "engine": ["bench", "core", "edmd"], "sampling": ["bench", "core", "mc"], "soft-contacts": ["bench", "core", "edmd"],
+          "analysis": ["bench", "analysis", "core"], "thesis": ["bench", "core", "edmd"]}
 FOLDER = ROOT / "docs" / "studies"
 OPTIONS = {"contact-time": ["--pairs", "10000", "--seconds", "20"],
            "thesis": ["--seconds", "2"]}

@@ -1,41 +1,78 @@
-"""Dense polydisperse liquids from two sides: compressed fast, and expanded from a denser state."""
+"""N = 1000 particles with sizes σ distributed as σ⁻³ (23 %), at the highest density of the [study of the glass](glass.md)
+and 0.01 above it. One state is compressed from random places at φ = 0.3 by growth at the rate 0.01, the other one expanded
+from a state that is {EXCESS} denser, prepared by growth that alternates with event chains and collective exchanges. Then
+both are sampled by event chains with four steps of collective exchanges per particle and sweep: everything is measured {SAMPLES}
+times, {APART} decorrelations of places, orientations and sizes apart (`decorrelations` of the stage `sample`), after as many
+as {MIXING} samples. Z is that of the chains, between two samples. Errors take the correlation of the samples into account.
+Required: Z to {LARGEST_ERROR:.1%}; all quantities of both starts, and of both halves of each, within {ERRORS} standard errors; ψ₆ below
+{LARGEST_HEXATIC}. *Sizes of neighbours*: Σ δ_i δ_j over neighbours, per particle, δ the deviation of the size from the mean in
+standard deviations. *S of sizes*: ⟨|Σ δ_j exp(iq·r_j)|²⟩/N at the smallest wave numbers; a liquid that separates by size would
+show large and growing values there.
+
+{table}
+"""
 
 import pathlib
 import shutil
-import statistics
 import tempfile
 
-from validation.common import INSERT, POWER_LAW, apart, expect, preparation, series_estimate, settings, summary_of, table
+from validation.common import Estimate, estimate, expect, series_estimate, settings, summary_of, table
+from validation.comparison import SCENES, Compared, Tolerance, compared, toml
 
 TITLE = "Equilibrium from two sides"
+INPUTS = ["mc", "core", "edmd", "workflow/stages"]
 
 # Of each liquid the highest density of the study of the glass (docs/glass.md) and 0.01 above it.
 LIQUIDS = {"disks": (1, (0.79, 0.80)), "ellipses, κ = 2": (2, (0.855, 0.865))}
-PARTICLES = 1000
 EXCESS = 0.008  # of the packing fraction of the state that is expanded
 APART = 3  # decorrelations between samples
 MIXING, SAMPLES = 12, 32  # samples that are discarded, and taken
-MAX_ERROR, MAX_DISTANCE = 0.003, 4  # of Z, relative; of two estimates, in standard errors
-MAX_HEXATIC = 0.3
+ERRORS, LARGEST_ERROR = 4, 0.003  # of two estimates; of Z, relative
+LARGEST_HEXATIC = 0.3
 NEIGHBOUR = 1.2  # circumcircles of this size overlap
 
-STAGES = {
-    "compressed": '[[prepare.stage]]\nmethod = "grow"\ngrowth_rate = 0.01',
-    "dense": '[[prepare.stage]]\nmethod = "hybrid"\ncollective_exchanges = 4',
-    "sampled": '[[prepare.stage]]\nmethod = "sample"\ncollective_exchanges = 4\ndecorrelations = %d' % APART,
-}
+INSERT = {"method": "insert", "packing_fraction": 0.3}
+COMPRESSED = [INSERT, {"method": "grow", "growth_rate": 0.01}]
+DENSE = [INSERT, {"method": "hybrid", "collective_exchanges": 4}]
+SAMPLED = [{"method": "sample", "collective_exchanges": 4, "decorrelations": APART}]
 
 
-def parameters(folder, name, kappa, *stages):
-    """A parameter file of this liquid, always with the same particles: Z depends on the sizes that were drawn."""
-    file = folder / f"{name}.toml"
-    file.write_text(preparation(PARTICLES, kappa, (POWER_LAW,), "[prepare]\nquality_sweeps = 0", *stages), encoding="utf-8")
-    return file
+class Liquid:
+    """One density of a liquid, with its files in a folder."""
 
+    def __init__(self, build, folder, kappa, phi):
+        self.build, self.folder, self.kappa, self.phi = build, folder, kappa, phi
 
-def prepared(build, file, phi, state, *changes):
-    """The summary of the preparation of a state at this packing fraction."""
-    return summary_of(build, "prepare", file, *settings([f"system.packing_fraction={phi}"]), *changes, "-o", state)
+    def prepared(self, name, stages, *, phi=None, start=None, seed=1):
+        """The file and the summary of a state after these stages."""
+        state = self.folder / f"{name}.h5"
+        changes = settings([f"species.0.aspect_ratio={self.kappa}", f"system.packing_fraction={phi or self.phi}",
+                            f"system.seed={seed}", f"prepare.stage={toml(stages)}"])
+        beginning = ["--from", start] if start else []
+        return state, summary_of(self.build, "prepare", SCENES / "dense_liquid.toml", *changes, *beginning, "-o", state)
+
+    def from_below(self):
+        return self.samples(self.prepared("compressed", COMPRESSED)[0])
+
+    def from_above(self):
+        dense, _ = self.prepared("dense", DENSE, phi=self.phi + EXCESS)
+        expanded = self.folder / "expanded.h5"
+        expand(dense, expanded, ((self.phi + EXCESS) / self.phi) ** 0.5)
+        return self.samples(expanded)
+
+    def samples(self, state):
+        """Each so many decorrelations after the one before, by quantity."""
+        found, start = [], state.stem
+        for k in range(MIXING + SAMPLES):
+            before = state
+            state, summary = self.prepared(f"{start}-{k}", SAMPLED, start=before, seed=1000 + k)
+            before.unlink()
+            stage = summary["stages"][-1]
+            expect(summary["overlaps"] == 0, f"{state}: overlaps")
+            expect(stage["decorrelations"] == APART, f"{state}: not decorrelated")
+            found.append({"Z": stage["reduced_pressure"], **structure(state),
+                          "ψ₆": summary["quality"]["hexatic_order"]["global"]})
+        return {name: [sample[name] for sample in found[MIXING:]] for name in found[0]}
 
 
 def expand(source, target, factor):
@@ -48,26 +85,18 @@ def expand(source, target, factor):
             file[f"particles/all/{name}"][...] *= factor
 
 
-def state_of(file):
-    """Positions, sizes √(a b), longest semi-axes and box lengths."""
+def structure(file):
+    """S(q) in the main peak and at small q, the correlation of the sizes of neighbours, and the structure factor of the
+    deviations of the sizes at the smallest wave numbers, where fractionation would show.
+    """
     import h5py
     import numpy
 
     with h5py.File(file) as content:
         particles = content["particles/all"]
-        axes = particles["semiaxes"][...]
-        return (particles["position/value"][-1][:, :2], numpy.sqrt(axes[:, 0] * axes[:, 1]), axes[:, 0],
-                numpy.diagonal(particles["box/edges/value"][-1])[:2])
-
-
-def structure(file):
-    """S(q) in the main peak and at small q, the correlation of the sizes of neighbours, and the structure factor of the
-    deviations of the sizes at the smallest wave numbers, where fractionation would show.
-    """
-    import numpy
-
-    position, size, extent, box = state_of(file)
-    n = len(size)
+        position, axes = particles["position/value"][-1][:, :2], particles["semiaxes"][...]
+        box = numpy.diagonal(particles["box/edges/value"][-1])[:2]
+    n, size, extent = len(axes), numpy.sqrt(axes[:, 0] * axes[:, 1]), axes[:, 0]
     deviation = (size - size.mean()) / size.std()
     waves = numpy.array([(i, j) for i in range(-40, 41) for j in range(41) if j > 0 or i > 0]) * 2 * numpy.pi / box
     length = numpy.hypot(*waves.T)
@@ -91,98 +120,30 @@ def structure(file):
     }
 
 
-def samples(build, folder, liquid, state):
-    """Each so many decorrelations after the one before."""
-    folder = folder / state.stem
-    folder.mkdir()
-    kappa, phi = liquid
-    file = parameters(folder, "sampled", kappa, STAGES["sampled"])
-    found = []
-    for k in range(MIXING + SAMPLES):
-        following = folder / f"sample_{k}.h5"
-        # The seed of every sample is its own.
-        summary = prepared(build, file, phi, following, "--from", state, *settings([f"system.seed={1000 + k}"]))
-        expect(summary["overlaps"] == 0, f"{following}: overlaps")
-        stage = summary["stages"][-1]
-        expect(stage["decorrelations"] == APART, f"{following}: not decorrelated")
-        found.append({"Z": stage["reduced_pressure"], **structure(following),
-                      "ψ₆": summary["quality"]["hexatic_order"]["global"], "sweeps": stage["sweeps"],
-                      "seconds": stage["wall_seconds"]})
-        if k > 0:
-            state.unlink()
-        state = following
-    return found[MIXING:]
+def drift(name, values):
+    """The second half against the first, in standard errors; of each half that is √2 times that of the series."""
+    half, error = len(values) // 2, 2**0.5 * series_estimate(values).error
+    halves = (Estimate(estimate(part).mean, error) for part in (values[:half], values[half:]))
+    return compared(f"{name}: both halves", *halves, Tolerance(ERRORS)).cells()[-1]
 
 
-def from_below(build, folder, kappa, phi):
-    state = folder / "compressed.h5"
-    prepared(build, parameters(folder, "compressed", kappa, INSERT, STAGES["compressed"]), phi, state)
-    return samples(build, folder, (kappa, phi), state)
-
-
-def from_above(build, folder, kappa, phi):
-    dense, state = folder / "dense.h5", folder / "expanded.h5"
-    prepared(build, parameters(folder, "dense", kappa, INSERT, STAGES["dense"]), phi + EXCESS, dense)
-    expand(dense, state, ((phi + EXCESS) / phi) ** 0.5)
-    return samples(build, folder, (kappa, phi), state)
-
-
-QUANTITIES = ("Z", "S(q), main peak", "S(q), small q", "sizes of neighbours", "S of sizes, smallest q", "ψ₆")
-
-
-def estimates(found):
-    return {name: series_estimate([sample[name] for sample in found]) for name in QUANTITIES}
-
-
-def drift(found, name):
-    """The second half against the first, in standard errors."""
-    values = [sample[name] for sample in found]
-    half = len(values) // 2
-    _, error = series_estimate(values)
-    return abs(statistics.mean(values[:half]) - statistics.mean(values[half:])) / (2 * error)
-
-
-def compared(name, phi, below, above):
+def rows(name, below, above):
     """A row for each quantity, after the check."""
-    one, other = estimates(below), estimates(above)
-    rows = []
-    for quantity in QUANTITIES:
-        distance = apart(one[quantity], other[quantity])
-        drifts = [drift(found, quantity) for found in (below, above)]
-        rows.append([phi, quantity, *(f"{value:.4g} ± {error:.2g}" for value, error in (one[quantity], other[quantity])),
-                     f"{distance:.1f}", " and ".join(f"{value:.1f}" for value in drifts)])
-        expect(distance < MAX_DISTANCE, f"{name}, φ = {phi}: {quantity} differs: {one[quantity]}, {other[quantity]}")
-        expect(max(drifts) < MAX_DISTANCE, f"{name}, φ = {phi}: {quantity} drifts")
-    for found in (one, other):
-        value, error = found["Z"]
-        expect(error <= MAX_ERROR * value, f"{name}, φ = {phi}: the error of Z, {error:.3g}, is too large")
-        expect(found["ψ₆"][0] < MAX_HEXATIC, f"{name}, φ = {phi}: hexatic order")
-    return rows
+    for quantity in below:
+        sides = [series_estimate(values[quantity]) for values in (below, above)]
+        drifts = " and ".join(drift(f"{name}: {quantity}", values[quantity]) for values in (below, above))
+        tolerance = Tolerance(ERRORS, largest_error=LARGEST_ERROR if quantity == "Z" else None)
+        yield [name, quantity, *compared(f"{name}: {quantity}", *sides, tolerance).cells(), drifts]
+    hexatic = max(series_estimate(values["ψ₆"]).mean for values in (below, above))
+    expect(hexatic < LARGEST_HEXATIC, f"{name}: hexatic order {hexatic}")
 
 
 def measure(build):
-    text = []
+    found = []
     for name, (kappa, densities) in LIQUIDS.items():
-        rows = []
         for phi in densities:
             with tempfile.TemporaryDirectory() as folder:
-                folder = pathlib.Path(folder)
-                below, above = (side(build, folder, kappa, phi) for side in (from_below, from_above))
-            rows += compared(name, phi, below, above)
-            sweeps = sum(sample["sweeps"] for sample in below + above) / (2 * SAMPLES * APART)
-            seconds = sum(sample["seconds"] for sample in below + above) / (2 * SAMPLES * APART)
-            print(f"{name}, φ = {phi}: {sweeps:.0f} sweeps, {seconds:.2g} s per decorrelation", flush=True)
-        text.append(f"### {name[0].upper() + name[1:]}\n\n" + table(
-            ["φ", "quantity", "compressed fast", "expanded", "apart / standard errors", "drift / standard errors"], rows))
-    return f"""\
-N = {PARTICLES} particles with sizes σ distributed as σ⁻³ (23 %), at the highest density of the [study of the glass](glass.md)
-and 0.01 above it. One state is compressed from random places at φ = 0.3 by growth at the rate 0.01, the other one expanded
-from a state that is {EXCESS} denser, prepared by growth that alternates with event chains and collective exchanges. Then
-both are sampled by event chains with four steps of collective exchanges per particle and sweep: everything is measured {SAMPLES}
-times, {APART} decorrelations of places, orientations and sizes apart (`decorrelations` of the stage `sample`), after {MIXING * APART} of them. Z is that of
-the chains, between two samples. Errors take the correlation of the samples into account. Required: Z to {MAX_ERROR:.1%}; all quantities of both starts, and of both halves of
-each, within {MAX_DISTANCE} standard errors; ψ₆ below {MAX_HEXATIC}. *Sizes of neighbours*: Σ δ_i δ_j over neighbours, per particle, δ the
-deviation of the size from the mean in standard deviations. *S of sizes*: ⟨|Σ δ_j exp(iq·r_j)|²⟩/N at the smallest wave
-numbers; a liquid that separates by size would show large and growing values there.
-
-""" + "\n\n".join(text)
+                liquid = Liquid(build, pathlib.Path(folder), kappa, phi)
+                found += rows(f"{name}, φ = {phi}", liquid.from_below(), liquid.from_above())
+    head = ["liquid", "quantity", "expanded", "compressed fast", *Compared.HEAD[2:], "drift in standard errors"]
+    return {"table": table(head, found)}

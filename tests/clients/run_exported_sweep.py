@@ -14,8 +14,8 @@ PROGRAM = sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from validation.common import (  # noqa: E402 (needs the path)
-    differing_datasets, differing_files, output_of, process_of_run, wait_until)
+from sweep_files import differing_datasets, differing_files, process_of_run, wait_until  # noqa: E402 (needs the path)
+from validation.common import output_of  # noqa: E402
 
 SYSTEM = """
 [system]

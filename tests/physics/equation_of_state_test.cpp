@@ -95,8 +95,9 @@ TEST_P(HardDisks, CompressibilityFromCollisionRateAndVirial) {
 }
 
 INSTANTIATE_TEST_SUITE_P(KolafaRottner, HardDisks,
-                         testing::Values(DiskCase{32, 0.3}, DiskCase{32, 0.5}, DiskCase{32, 0.65},
-                                         DiskCase{48, 0.3}, DiskCase{48, 0.5}, DiskCase{48, 0.65}));
+                         testing::Values(DiskCase{32, 0.3}, DiskCase{32, 0.5}, DiskCase{32, 0.6},
+                                         DiskCase{32, 0.65}, DiskCase{48, 0.3}, DiskCase{48, 0.5},
+                                         DiskCase{48, 0.6}, DiskCase{48, 0.65}));
 
 // κ = 2, φ = 0.5 (another 0.1 % allowed).
 TEST(HardEllipses, CompressibilityFromTheVirial) {

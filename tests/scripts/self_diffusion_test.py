@@ -10,7 +10,7 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
 
-from validation import self_diffusion  # noqa: E402 (needs the path)
+from validation import literature, self_diffusion  # noqa: E402 (needs the path)
 
 
 def point(length, value, error):
@@ -36,9 +36,9 @@ class SelfDiffusion(unittest.TestCase):
 
     def test_enskog_and_speedy_of_a_dilute_gas(self):
         # The first Sonine approximation of D, and Chapman and Enskog's factor for the higher ones.
-        dilute = 3 / 8 / (self_diffusion.number_density(1e-6) * 4 * math.sqrt(math.pi))
-        self.assertAlmostEqual(self_diffusion.speedy_diffusion(1e-6) / dilute, 1, delta=1e-5)
-        self.assertAlmostEqual(self_diffusion.enskog_diffusion(1e-6) / dilute, 1.01896, delta=1e-5)
+        dilute = 3 / 8 / (literature.number_density(1e-6) * 4 * math.sqrt(math.pi))
+        self.assertAlmostEqual(literature.speedy_diffusion(1e-6) / dilute, 1, delta=1e-5)
+        self.assertAlmostEqual(literature.enskog_diffusion(1e-6) / dilute, 1.01896, delta=1e-5)
 
 
 if __name__ == "__main__":

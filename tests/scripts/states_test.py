@@ -12,16 +12,84 @@ from unittest import mock
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
 
-from validation import constant_pressure, liquid_crystal, packings  # noqa: E402 (needs the path)
-from validation.common import Failure, estimate, series_estimate  # noqa: E402
+from validation import comparison, constant_pressure, jamming, liquid_crystal, literature, packings  # noqa: E402 (needs the path)
+from validation.common import Estimate, Failure, estimate, series_estimate  # noqa: E402
+from validation.comparison import Scene, Scenes, Tolerance, compared  # noqa: E402
 
 
-def found(deviation, relative_error, packing_fraction=0.5):
-    one = object.__new__(constant_pressure.Found)
-    one.aspect_ratio, one.reference, one.box, one.particles = 1, packing_fraction, "isotropic", 100
-    one.deviation, one.relative_error = deviation, relative_error
-    one.mean, one.error = packing_fraction * (1 + deviation), packing_fraction * relative_error
-    return one
+def job(seed, value, overlaps=0, **values):
+    return {"id": f"seed-{seed}", "values": {"x": 1, **values, "system.seed": seed},
+            "prepare": {"overlaps": overlaps, "stages": [{"z": 0, "z_error": 0}, {"z": value, "z_error": 0.3}]}}
+
+
+class Comparisons(unittest.TestCase):
+    def run_scenes(self, jobs):
+        with mock.patch.object(comparison, "summary_of", return_value={"jobs": jobs}):
+            return Scenes(pathlib.Path("scenes.toml")).run(None)
+
+    def test_jobs_that_differ_in_their_seeds_are_one_scene(self):
+        first, second = self.run_scenes([job(1, 2), job(1, 7, y=[1, 2]), job(2, 4)])
+        self.assertEqual((first["x"], second["y"]), (1, [1, 2]))
+        self.assertEqual(first.every("prepare.stages.-1.z"), [2, 4])
+        self.assertEqual(first.mean("prepare.stages.1.z"), (3, 1))
+        self.assertAlmostEqual(first.stated_mean("prepare.stages.1.z").error, 0.3 / math.sqrt(2))
+
+    def test_an_overlap_is_a_failure(self):
+        with self.assertRaisesRegex(Failure, "seed-2: 3 overlaps"):
+            self.run_scenes([job(1, 2), job(2, 4, overlaps=3)])
+
+    def test_rows_and_seeds_are_toml(self):
+        drawn = {"distribution": "uniform", "low": 0.5, "high": 2}
+        rows = ({"ratios": [2, 5], "system.particles": 10}, {"ratios": [drawn, drawn], "system.particles": 20})
+        *settings, together, grid = Scenes(pathlib.Path("a.toml"), ("b=1",), rows, range(1, 3)).overrides()
+        self.assertEqual(settings, ["b=1"])
+        self.assertEqual(tomllib.loads(together.replace("sweep.together=", "x =")),
+                         {"x": {"ratios": [[2, 5], [drawn, drawn]], "system.particles": [10, 20]}})
+        self.assertEqual(grid, 'sweep.grid={ "system.seed" = [1, 2] }')
+
+    def test_a_deviation_within_all_that_is_allowed(self):
+        tolerance = Tolerance(errors=3, relative=0.01, absolute=0.1)
+        # 3 · 0.5 + 0.02 + 0.1, the errors of both together.
+        for measured, is_good in ((3.61, True), (0.39, True), (3.63, False), (0.37, False)):
+            values = Estimate(measured, 0.3), Estimate(2, 0.4), tolerance
+            if is_good:
+                compared("x", *values)
+            else:
+                with self.assertRaisesRegex(Failure, "x: 3.63|x: 0.37"):
+                    compared("x", *values)
+
+    def test_a_standard_error_that_is_too_large(self):
+        compared("x", Estimate(2, 0.02), 2, Tolerance(largest_error=0.01))
+        with self.assertRaisesRegex(Failure, "standard error"):
+            compared("x", Estimate(2, 0.021), 2, Tolerance(largest_error=0.01))
+
+    def test_cells(self):
+        self.assertEqual(list(map(str, compared("x", Estimate(2.02, 0.013), 2).cells())),
+                         ["2", "2.020 ± 0.013", "+1.000%", "+1.5"])
+        self.assertEqual(str(compared("x", Estimate(0.1, 0.2), 0).cells()[2]), "+0.1")
+
+
+class Literature(unittest.TestCase):
+    def test_the_table_of_the_header(self):
+        found = {(one.aspect_ratio, one.packing_fraction): (one.z, one.error) for one in literature.fluid_pressures()}
+        self.assertEqual(found[1, 0.65], (8.408044, 0))
+        self.assertEqual(found[2, 0.5], (4.492, 0.003))
+        self.assertEqual(len(found), literature.HEADER.read_text(encoding="utf-8").count("},"))
+
+    def test_ellipsoids_that_are_spheres_are_those_of_carnahan_and_starling(self):
+        self.assertAlmostEqual(literature.ellipsoid_fluid((1, 1, 1), 0.3), literature.carnahan_starling(0.3), places=9)
+
+    def test_measures_of_a_prolate_spheroid(self):
+        # Of semi-axes 2, 1, 1: closed forms with e² = 3/4.
+        e = math.sqrt(3) / 2
+        radius, surface, volume = literature.convex_measures((2, 1, 1))
+        self.assertAlmostEqual(radius, (2 + math.atanh(e) / (2 * e)) / 2, places=9)
+        self.assertAlmostEqual(surface, 2 * math.pi * (1 + 2 * math.asin(e) / e), places=9)
+        self.assertAlmostEqual(volume, 8 * math.pi / 3)
+
+    def test_dilute_fluids_follow_the_second_virial_coefficient(self):
+        for z in (literature.sphere_fluid, literature.carnahan_starling):
+            self.assertAlmostEqual((z(1e-6) - 1) / 1e-6, 4, delta=1e-4)
 
 
 class ConstantPressure(unittest.TestCase):
@@ -29,36 +97,25 @@ class ConstantPressure(unittest.TestCase):
         # One particle of area π on an area of π.
         self.assertEqual(constant_pressure.pressure(1, 1), 1 / math.pi)
 
-    def test_derivative_of_a_cubic_is_exact(self):
-        points = [(x, 2 - x + 3 * x**2 - x**3) for x in (0, 0.2, 0.5, 0.6)]
-        for x in (0, 0.3, 0.6):
-            self.assertAlmostEqual(constant_pressure.derivative(points, x), -1 + 6 * x - 3 * x**2, places=12)
-
-    def test_spread_falls_with_the_root_of_the_number(self):
-        ratio = constant_pressure.spread(1, 0.5, 100) / constant_pressure.spread(1, 0.5, 400)
-        self.assertAlmostEqual(ratio, 2)
-
-    def test_spread_of_disks(self):
-        # Virial series to B_7 (Clisby & McCoy 2006) at φ = 0.3, where the rest is below 1 %.
-        virials = (1, 2, 4 * 0.782004, 8 * 0.532232, 16 * 0.333556, 32 * 0.198843, 64 * 0.114873)
-        slope = sum((k + 1) * b * 0.3**k for k, b in enumerate(virials))
-        self.assertAlmostEqual(constant_pressure.spread(1, 0.3, 100) * math.sqrt(100 * slope), 1, delta=0.01)
-
     def test_no_two_measurements_share_a_seed(self):
-        drawn = [seed for number in range(30) for seed in constant_pressure.seeds(number)]
+        drawn = [row["system.seed"] for row in constant_pressure.rows()]
         self.assertEqual(len(drawn), len(set(drawn)))
-
-    def test_deviation_of_the_wanted_size(self):
-        found(0.0039, 0.001).check()
-        found(-0.0059, 0.001, 0.6).check()
-        for one in (found(0.0041, 0.001), found(-0.0061, 0.001, 0.6), found(0, 0.0031)):
-            with self.assertRaises(Failure):
-                one.check()
+        self.assertGreater(len(drawn), 24 * constant_pressure.SEEDS)
 
     def test_mean_deviation(self):
-        mean, error = constant_pressure.mean_deviation([found(0.001, 0.003), found(0.003, 0.004)])
+        found = [compared("", Estimate(0.5 * (1 + deviation), 0.5 * error), 0.5, Tolerance(9))
+                 for deviation, error in ((0.001, 0.003), (0.003, 0.004))]
+        mean, error = constant_pressure.mean_deviation(found)
         self.assertAlmostEqual(mean, 0.002)
         self.assertAlmostEqual(error, 0.0025)
+
+
+class Jamming(unittest.TestCase):
+    def test_extrapolation_is_exact_for_free_volumes(self):
+        stages = [{}] + [{"reduced_pressure": z, "packing_fraction": 0.85 * (1 - 2.5 / z)} for z in (1e5, 1e6)]
+        found = jamming.extrapolated(Scene({}, [{"prepare": {"stages": stages}}]))
+        self.assertAlmostEqual(found[0], 0.85, places=12)
+        self.assertAlmostEqual(found[1], 2.5, places=5)
 
 
 class Series(unittest.TestCase):
@@ -111,27 +168,17 @@ class LiquidCrystal(unittest.TestCase):
 
 class Packings(unittest.TestCase):
     def test_every_row_of_the_article_has_its_time(self):
-        for values in packings.parameters_of(packings.TABLE_2)["sweep"]["together"].values():
-            self.assertEqual(len(values), len(packings.PUBLISHED))
-
-    def test_other_rows_are_toml(self):
-        drawn = '{ distribution = "uniform", low = 0.5, high = 2 }'
-        columns = {"species.0.aspect_ratios": ["[2, 5]", f"[{drawn}, {drawn}]"], "system.particles": [10, 20]}
-        key, table = packings.together(columns).split("=", 1)
-        uniform = {"distribution": "uniform", "low": 0.5, "high": 2}
-        self.assertEqual(key, "sweep.together")
-        self.assertEqual(tomllib.loads(f"rows ={table}")["rows"],
-                         {"species.0.aspect_ratios": [[2, 5], [uniform, uniform]], "system.particles": [10, 20]})
+        study = packings.parameters_of(packings.TABLE_2)["sweep"]
+        for values in study["together"].values():
+            self.assertEqual(len(values), len(study["published"][0]["values"]))
 
     def test_the_volume_fraction_is_that_of_the_parameters(self):
-        for name, values, wanted in (("ghossein_figure_7", {}, 0.3), ("ghossein_table_2", {packings.FRACTION: 0.6}, 0.6)):
-            for reached, is_good in ((wanted * (1 + 1e-12), True), (wanted * (1 - 1e-10), False)):
-                job = {"id": "job", "values": values, "prepare": {"packing_fraction": reached}}
-                with mock.patch.object(packings, "article_sweep", return_value={"jobs": [job], "seeds": []}):
-                    if is_good:
-                        packings.sweep(None, name)
-                    else:
-                        self.assertRaises(Failure, packings.sweep, None, name)
+        for reached, is_good in ((0.6 * (1 + 1e-12), True), (0.6 * (1 - 1e-10), False)):
+            scene = Scene({packings.PHI: 0.6}, [{"prepare": {"packing_fraction": reached}}])
+            if is_good:
+                packings.check_fraction(scene)
+            else:
+                self.assertRaises(Failure, packings.check_fraction, scene)
 
 
 if __name__ == "__main__":

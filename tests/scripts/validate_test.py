@@ -1,9 +1,12 @@
 #!/usr/bin/python3
-"""scripts/validate rewrites exactly the section it was asked for, and none if the validation fails."""
+"""scripts/validate rewrites exactly the section it was asked for, and none if the validation fails; --stale lists the
+sections whose inputs have changed.
+"""
 
 import importlib.machinery
 import importlib.util
 import pathlib
+import subprocess
 import sys
 import tempfile
 import types
@@ -44,6 +47,12 @@ class Validate(unittest.TestCase):
         self.run_validation("One", lambda build: "new 1\n")
         self.assertEqual(validate.PAGE.read_text(), PAGE.replace("## One\n\nold 1\n", new))
 
+    def test_the_docstring_is_the_text_around_what_was_measured(self):
+        module = types.ModuleType("validation.sample", "Required: {LARGEST:.1%}.\n\n{table}\n")
+        module.LARGEST = 0.02
+        self.assertEqual(validate.text_of(module, {"table": "| 1 |"}), "Required: 2.0%.\n\n| 1 |\n")
+        self.assertEqual(validate.text_of(module, "as it is"), "as it is")
+
     def test_appends_a_new_section(self):
         validate.PAGE.write_text(PAGE)
         self.run_validation("Two", lambda build: "new")
@@ -67,6 +76,68 @@ class Validate(unittest.TestCase):
             module = importlib.import_module(f"validation.{name}")
             self.assertTrue(module.TITLE)
             self.assertTrue(callable(module.measure))
+            of_parts = getattr(module, "INPUTS", [])
+            for inputs in of_parts.values() if isinstance(of_parts, dict) else [of_parts]:
+                for name in inputs:
+                    self.assertTrue((SCRIPT.parents[1] / name).exists(), name)
+
+
+class Stale(unittest.TestCase):
+    """In a repository with two commits: the second one changes core, which only one of the validations depends on."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        for name, value in (("ROOT", self.root), ("PAGE", self.root / "docs/validation.md"),
+                            ("STUDIES", self.root / "docs/studies"), ("PLATFORMS", self.root / "docs/platforms.md")):
+            self.addCleanup(setattr, validate, name, getattr(validate, name))
+            setattr(validate, name, value)
+        self.addCleanup(setattr, validate, "names", validate.names)
+        validate.names = lambda: ["first", "second", "studies", "platforms"]
+        inputs = {"first": ["core"], "second": ["mc"], "studies": {"engine": ["core"], "sampling": ["mc"]}, "platforms": ["core"]}
+        for name, of_module in inputs.items():
+            sys.modules[f"validation.{name}"] = module = types.ModuleType(f"validation.{name}")
+            self.addCleanup(sys.modules.pop, f"validation.{name}")
+            module.INPUTS = of_module
+        self.git("init", "--quiet")
+        self.since = self.commit("core/a.h", "mc/b.h")
+
+    def git(self, *words):
+        who = ("-c", "user.name=name", "-c", "user.email=address")
+        return subprocess.run(["git", "-C", self.root, *who, *words], check=True, capture_output=True, text=True).stdout.strip()
+
+    def commit(self, *files):
+        for file in files:
+            (self.root / file).parent.mkdir(exist_ok=True)
+            with (self.root / file).open("a", encoding="utf-8") as out:
+                out.write("line\n")
+        self.git("add", "--all")
+        self.git("commit", "--quiet", "--message=All.")
+        return self.git("rev-parse", "--short", "HEAD")
+
+    def pages(self, since):
+        measured = f"Measured on 2026-11-21, commit {since}, a processor, in 9 s.\n"
+        (self.root / "docs/studies").mkdir(parents=True, exist_ok=True)
+        validate.PAGE.write_text("# Validation\n\n" + "\n".join(
+            f"## {title}\n\nCommand: `scripts/validate {name}`\n\nText (commit 1234567).\n\n{measured}"
+            for title, name in (("One", "first"), ("Two", "second"), ("Three", "removed"))))
+        for name in ("engine", "sampling"):
+            (self.root / f"docs/studies/{name}.md").write_text(f"# A question?\n\n{measured}")
+        validate.PLATFORMS.write_text(f"# Platforms\n\n- Debian 12, GCC: 2026-11-27, commit {since}, a processor\n")
+
+    def test_lists_what_is_older_than_its_inputs(self):
+        self.pages(self.since)
+        self.assertEqual(validate.stale(), "docs/validation.md: Three: there is no such validation since " + self.since)
+        self.commit("core/a.h")
+        changed = f"1 file changed, 1 insertion(+) since {self.since}"
+        self.assertEqual(validate.stale().splitlines(), [
+            f"docs/validation.md: One: {changed}", f"docs/validation.md: Three: there is no such validation since {self.since}",
+            f"docs/studies/engine.md: engine: {changed}", f"docs/platforms.md: Debian 12, GCC: {changed}"])
+
+    def test_a_commit_that_is_not_in_the_repository(self):
+        self.pages("0123456")
+        self.assertIn("docs/validation.md: Two: the commit is unknown here since 0123456", validate.stale())
 
 
 if __name__ == "__main__":
