@@ -62,10 +62,6 @@ def settings(overrides):
     return [word for override in overrides for word in ("--set", override)]
 
 
-# Sizes ∝ σ⁻³ between 0.45 and 1 of the largest, 23 % polydispersity.
-POWER_LAW = '{ distribution = "power_law", low = 0.725, high = 1.61 }'
-
-
 class Estimate(typing.NamedTuple):
     """A mean and its standard error."""
 

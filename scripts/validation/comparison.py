@@ -8,7 +8,7 @@ import statistics
 import tempfile
 import typing
 
-from validation.common import HERE, Estimate, estimate, expect, settings, summary_of, table, text_of
+from validation.common import HERE, Estimate, estimate, expect, settings, summary_of, table
 
 SCENES = HERE / "scenes"
 SEED = "system.seed"

@@ -1,7 +1,8 @@
-"""Monte Carlo at the pressure P = ρZ of a table must reproduce the packing fraction of the table. This is tested in a box of
-constant shape (isotropic) and in a box whose sides change one at a time (anisotropic). βP is in units of 1/(a b). An ellipse
-with a b = 1 has the area π, so βP = φZ/π. Z of disks comes from Kolafa and Rottner, Mol. Phys. 104, 3435 (2006), for the
-infinite system. Z of ellipses comes from Monte Carlo at constant volume with N ≈ 400, an independent route.
+"""Monte Carlo at the pressure P = ρZ of a table must reproduce the packing fraction of the table. This is tested in a
+box of constant shape (isotropic) and in a box whose sides change one at a time (anisotropic). βP is in units of 1/(a
+b). An ellipse with a b = 1 has the area π, so βP = φZ/π. Z of disks comes from Kolafa and Rottner, Mol. Phys. 104, 3435
+(2006), for the infinite system. Z of ellipses comes from Monte Carlo at constant volume with N ≈ 400, an independent
+route.
 
 {SEEDS} seeds of each state start from random positions at the φ of the table. Averages are over the second half of the
 sweeps: {sweeps} for N = 100. Required: a standard error, from the scatter of the seeds, of at most {LARGEST_ERROR:.1%} of φ; a
@@ -10,11 +11,11 @@ the mean of all deviations, with 0.1 %: {mean}.
 
 {table}
 
-The shift of φ by the finite size decreases as 1/N or faster: -0.32% of disks and -0.22% of κ = 6 at N = 25, where it is at
-least four times as large as at N = 100 (commit 3c2d7ab). Volumes decorrelate slowly: a volume move is accepted if it creates
-no overlap, so its step is about 1/(N (Z − 1)) of the volume, which diffuses in such steps across the width of its
-distribution, 1/√(N ∂(φZ)/∂φ). That takes 100 to 1900 sweeps at N = 100. The number of sweeps for a given error is independent
-of N, and small systems are cheap.
+The shift of φ by the finite size decreases as 1/N or faster: -0.32% of disks and -0.22% of κ = 6 at N = 25, where it is
+at least four times as large as at N = 100 (commit 3c2d7ab). Volumes decorrelate slowly: a volume move is accepted if it
+creates no overlap, so its step is about 1/(N (Z − 1)) of the volume, which diffuses in such steps across the width of
+its distribution, 1/√(N ∂(φZ)/∂φ). That takes 100 to 1900 sweeps at N = 100. The number of sweeps for a given error is
+independent of N, and small systems are cheap.
 """
 
 import math

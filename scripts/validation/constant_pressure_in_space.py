@@ -1,9 +1,9 @@
-"""Hard spheres at the pressure P = ρZ of an equation of state must have its packing fraction: Kolafa, Labík and Malijevský,
-Phys. Chem. Chem. Phys. 6, 2335 (2004), for the fluid, and Speedy, J. Phys.: Condens. Matter 10, 4387 (1998), for the
-face-centred cubic crystal. In a crystal of N particles the centre of mass is free, so that Z is lower by (Z − 1)/N. All
-runs begin on the crystal, N = {PARTICLES}, and the fluid melts in 2000 sweeps of event chains. The box keeps its shape. Averages
-are over the second half of the sweeps. Required: a standard error, from the scatter of the seeds, of at most
-{LARGEST_ERROR:.2%} of φ, and a deviation of at most 3 standard errors.
+"""Hard spheres at the pressure P = ρZ of an equation of state must have its packing fraction: Kolafa, Labík and
+Malijevský, Phys. Chem. Chem. Phys. 6, 2335 (2004), for the fluid, and Speedy, J. Phys.: Condens. Matter 10, 4387
+(1998), for the face-centred cubic crystal. In a crystal of N particles the centre of mass is free, so that Z is lower
+by (Z − 1)/N. All runs begin on the crystal, N = {PARTICLES}, and the fluid melts in 2000 sweeps of event chains. The
+box keeps its shape. Averages are over the second half of the sweeps. Required: a standard error, from the scatter of
+the seeds, of at most {LARGEST_ERROR:.2%} of φ, and a deviation of at most 3 standard errors.
 
 {table}
 """

@@ -1,6 +1,5 @@
-"""`scripts/container` made the image in {seconds:.0f} s (buildah, isolation `chroot`). It takes {size}
-and has no compiler. `vitrel --version` says {version}; a run of an example passes the exact check and names
-the commit.
+"""`scripts/container` made the image in {seconds:.0f} s (buildah, isolation `chroot`). It takes {size} and has no
+compiler. `vitrel --version` says {version}; a run of an example passes the exact check and names the commit.
 """
 
 import json

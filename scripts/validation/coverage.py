@@ -13,7 +13,8 @@ import pathlib
 import tempfile
 import textwrap
 
-from validation.common import POWER_LAW, expect, summary_of, table
+from validation.common import expect, settings, summary_of, table
+from validation.comparison import SCENES, SEED
 
 TITLE = "Error bars against the scatter of seeds"
 INPUTS = ["analysis", "core", "edmd", "mc", "workflow/analyze", "workflow/run"]
@@ -23,62 +24,11 @@ LEAST, MOST = 0.8, 1.25
 MOST_REFUSED = 5
 RESAMPLES = 400
 
-BROWNIAN = 'kind = "brownian"\nequilibration = 20\n'
-SOFT = """
-[dynamics.contact]
-radius = "1 cm"
-density = "1140 kg/m^3"
-thermal_speed = "2 m/s"
-law = "linear_dashpot"
-stiffness = "100000 N/m"
-"""
-COMPRESS = """
-[[prepare.stage]]
-method = "insert"
-packing_fraction = 0.3
-[[prepare.stage]]
-method = "compress"
-pressure = 2
-sweeps = 4000
-"""
-
-# Fewer time differences than by default say the same of a curve.
-ANALYSIS = "[analysis]\nevery_lag_up_to = 20\nlags_per_decade = 20\n"
-
-# What is simulated: [system], species, [dynamics] and sample interval, if it runs, and what follows.
-SYSTEMS = {
-    "disks": ("particles = 100\npacking_fraction = 0.6", ["aspect_ratio = 1"], "duration = 200", 0.5, ""),
-    "ellipses": ("particles = 100\npacking_fraction = 0.6", ["aspect_ratio = 2"], "duration = 200", 0.5, ""),
-    "brownian_ellipses": ("particles = 100\npacking_fraction = 0.65", ["aspect_ratio = 2"], BROWNIAN + "duration = 300",
-                          0.5, "[output.correlations]\ninterval = 0.1\n"),
-    "short": ("particles = 100\npacking_fraction = 0.65", ["aspect_ratio = 2"], BROWNIAN + "duration = 80", 0.5, ""),
-    "mixture": ("particles = 100\npacking_fraction = 0.65",
-                ["aspect_ratio = 1.5\nsize = 0.8\nfraction = 0.5", "aspect_ratio = 2\nsize = 1.2\nfraction = 0.5"],
-                BROWNIAN + "duration = 300", 0.5, ""),
-    "polydisperse": ("particles = 100\npacking_fraction = 0.68", [f"aspect_ratio = 1.5\nsize = {POWER_LAW}"],
-                     BROWNIAN + "duration = 300", 0.5, ""),
-    "spheres": ("dimension = 3\nparticles = 108\npacking_fraction = 0.45", ["aspect_ratio = 1"], "duration = 100", 0.25,
-                ""),
-    "brownian_spheroids": ("dimension = 3\nparticles = 108\npacking_fraction = 0.45", ["aspect_ratio = 2"],
-                           BROWNIAN + "duration = 400", 0.5, ""),
-    "soft": ("particles = 100\npacking_fraction = 0.5", ["aspect_ratio = 1"], "duration = 200", 0.5, SOFT),
-    # Twenty relaxation times are 180: of the runs that are tested there, about half end.
-    "until_known": ("particles = 100\npacking_fraction = 0.65", ["aspect_ratio = 2"],
-                    BROWNIAN + "duration = { relaxation_times = 20, at_most = 1440 }", 0.5, ""),
-    "compressed": ("particles = 100", ["aspect_ratio = 2"], None, None, COMPRESS),
-}
-
-
+# Parameter files in scenes/coverage. Fewer time differences than by default say the same of a curve.
+SYSTEMS = ("disks", "ellipses", "brownian_ellipses", "short", "mixture", "polydisperse", "spheres", "brownian_spheroids", "soft",
+           "until_known", "compressed")
 # What runs of different lengths have in common.
 OF_ANY_LENGTH = ("quality report", "summary", "relaxation:", "relaxation_times")
-
-
-def parameters(name, seeds):
-    system, species, dynamics, interval, rest = SYSTEMS[name]
-    kinds = "".join(f'[[species]]\nname = "{letter}"\n{kind}\n' for letter, kind in zip("AB", species))
-    run = f"[dynamics]\n{dynamics}\n[output]\nsamples = {{ interval = {interval} }}\n{ANALYSIS}" if dynamics else ""
-    return (f"[system]\n{system}\n{kinds}{run}{rest}"
-            f'[sweep.grid]\n"system.seed" = {list(seeds)}\n')
 
 
 def prepared(folder):
@@ -116,10 +66,9 @@ def sampled(build, name, seeds=SEEDS):
     import numpy
 
     with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder, "parameters.toml")
-        file.write_text(parameters(name, seeds), encoding="utf-8")
-        sweep = pathlib.Path(folder, "sweep")
-        summary_of(build, "sweep", file, "-o", sweep, "-j", "2", "--quiet")
+        sweep = pathlib.Path(folder)
+        summary_of(build, "sweep", SCENES / "coverage" / f"{name}.toml", "-o", sweep, "-j", "2", "--quiet",
+                   *settings([f'sweep.grid={{ "{SEED}" = {list(seeds)} }}']))
         runs = [measured(sweep / f"seed-{seed}") for seed in seeds]
     found = {}
     for quantity in runs[0]:

@@ -1,7 +1,8 @@
-"""The exact check computes in long double where that has at least 64 bits, else in the sum of two doubles. Both judge 10⁷
-random pairs of ellipses and as many of ellipsoids, once as the check does and once by the criterion alone. Aspect ratios are
-1 … 100 and size ratios 1 … 10. Half of the pairs are anywhere within the circumcircles (spheres). A quarter each overlap or
-miss each other by 3 · 10⁻¹⁵ of the longest semi-axis, so that the right verdict is known. Required: all verdicts agree.
+"""The exact check computes in long double where that has at least 64 bits, else in the sum of two doubles. Both judge
+10⁷ random pairs of ellipses and as many of ellipsoids, once as the check does and once by the criterion alone. Aspect
+ratios are 1 … 100 and size ratios 1 … 10. Half of the pairs are anywhere within the circumcircles (spheres). A quarter
+each overlap or miss each other by 3 · 10⁻¹⁵ of the longest semi-axis, so that the right verdict is known. Required: all
+verdicts agree.
 
 {table}
 """

@@ -1,7 +1,7 @@
-"""Files are damaged at random: bits, bytes, lines and numbers change, parts are removed, repeated or exchanged; HDF5 files
-also lose objects, or get others of another type, shape or value. A command of `vitrel` reads each, under the address and
-undefined-behaviour sanitizers. A finding is a crash, an input that takes more than 5 s of processor time, an exit code other
-than 0, 2, 3, 4 and 5, or a refusal with no message or more than three lines.
+"""Files are damaged at random: bits, bytes, lines and numbers change, parts are removed, repeated or exchanged; HDF5
+files also lose objects, or get others of another type, shape or value. A command of `vitrel` reads each, under the
+address and undefined-behaviour sanitizers. A finding is a crash, an input that takes more than 5 s of processor time,
+an exit code other than 0, 2, 3, 4 and 5, or a refusal with no message or more than three lines.
 
 {table}
 """

@@ -1,15 +1,15 @@
 """Driven smooth spheres: N = {PARTICLES}, φ = {PHI}, kicks every {KICKS} mean free times, with the power that makes the
-temperature 1 by van Noije and Ernst (Granular Matter 1, 57 (1998)) with Enskog's collision frequency. Required: T within
-{LARGEST_TEMPERATURE:.0%} of it, and the fourth cumulant a₂ of the velocities within {LARGEST_CUMULANT} of theirs. Errors are standard errors,
-from {FRAMES} frames that are {APART} mean free times apart.
+temperature 1 by van Noije and Ernst (Granular Matter 1, 57 (1998)) with Enskog's collision frequency. Required: T
+within {LARGEST_TEMPERATURE:.0%} of it, and the fourth cumulant a₂ of the velocities within {LARGEST_CUMULANT} of
+theirs. Errors are standard errors, from {FRAMES} frames that are {APART} mean free times apart.
 
 {table}
 
 Cooling rough spheres: `tests/physics/rough_gas_test.cpp` compares the ratio of their rotational to their translational
-temperature with the Boltzmann equation, solved by direct simulation Monte Carlo, and with the closed form of Huthmann and
-Zippelius (Phys. Rev. E 56, R6275 (1997)), which takes both velocities as Gaussian. They are not, and the closed form is too
-large: the measured ratios are 0.966, 0.939 and 0.978 of it at β = −0.5, 0 and 0.5, and within 3 % of the Boltzmann equation
-(e = 0.9, no slip, φ = 0.01, commit 37c9582).
+temperature with the Boltzmann equation, solved by direct simulation Monte Carlo, and with the closed form of Huthmann
+and Zippelius (Phys. Rev. E 56, R6275 (1997)), which takes both velocities as Gaussian. They are not, and the closed
+form is too large: the measured ratios are 0.966, 0.939 and 0.978 of it at β = −0.5, 0 and 0.5, and within 3 % of the
+Boltzmann equation (e = 0.9, no slip, φ = 0.01, commit 37c9582).
 """
 
 from validation.common import PARAMS, estimate, table

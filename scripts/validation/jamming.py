@@ -1,15 +1,16 @@
-"""500 particles are inserted at random at φ = 0.3. They grow during event-driven dynamics (Lubachevsky and Stillinger) at
-the rate 0.001 until the compressibility factor Z = βP/ρ is 10⁶. Masses are constant, the moment of inertia follows
-the axes, and ω is constant in free flight. Monodisperse disks and nearly round ellipses crystallise. The curve therefore
-shows equimolar mixtures of two sizes, 1 : {SIZE_RATIO}. φ_J and C follow from Z = C/(1 − φ/φ_J) at Z = 10⁵ and at the end. In
-a jammed packing C is the number of degrees of freedom (2 for disks, 3 for ellipses) times the fraction of non-rattlers. The
-column *contacts* is the contact number of the quality report, per particle and without rattlers; *isostatic* is the number
-that fixes all degrees of freedom. Nearly round ellipses have fewer (Donev et al. 2007).
+"""500 particles are inserted at random at φ = 0.3. They grow during event-driven dynamics (Lubachevsky and Stillinger)
+at the rate 0.001 until the compressibility factor Z = βP/ρ is 10⁶. Masses are constant, the moment of inertia follows
+the axes, and ω is constant in free flight. Monodisperse disks and nearly round ellipses crystallise. The curve
+therefore shows equimolar mixtures of two sizes, 1 : {SIZE_RATIO}. φ_J and C follow from Z = C/(1 − φ/φ_J) at Z = 10⁵
+and at the end. In a jammed packing C is the number of degrees of freedom (2 for disks, 3 for ellipses) times the
+fraction of non-rattlers. The column *contacts* is the contact number of the quality report, per particle and without
+rattlers; *isostatic* is the number that fixes all degrees of freedom. Nearly round ellipses have fewer (Donev et al.
+2007).
 
 One seed each. Elongated particles align while they grow (nematic order), so φ_J rises again towards κ = 6.
 
-Required: Z ≥ 10⁶ everywhere; no overlap by the exact check (tolerance zero); C between 75 % and 110 % of the
-degrees of freedom; φ_J of the mixtures within {TOLERANCE} of the literature. The sources differ in protocol and in particles.
+Required: Z ≥ 10⁶ everywhere; no overlap by the exact check (tolerance zero); C between 75 % and 110 % of the degrees of
+freedom; φ_J of the mixtures within {TOLERANCE} of the literature. The sources differ in protocol and in particles.
 
 {packings}
 
@@ -39,8 +40,9 @@ PACKINGS = Scenes(SCENES / "jamming.toml", rows=ROWS)
 
 def extrapolated(scene):
     """φ_J and C from φ = φ_J (1 − C/Z) after both stages of growth."""
-    (z1, phi1), (z2, phi2) = ((stage["reduced_pressure"], stage["packing_fraction"])
-                              for stage in scene.every("prepare.stages")[0][1:])
+    stages, = scene.every("prepare.stages")
+    z1, z2 = (stage["reduced_pressure"] for stage in stages[1:])
+    phi1, phi2 = (stage["packing_fraction"] for stage in stages[1:])
     constant = (phi2 - phi1) / (phi2 / z1 - phi1 / z2)
     return phi2 / (1 - constant / z2), constant
 
@@ -67,7 +69,8 @@ def literature_row(scenes, known):
 
 def measure(build):
     packings = PACKINGS.run(build)
-    head = ["κ", "sizes", "φ_J", "C", "Z at the end", "contacts", "isostatic", "rattlers", "nematic order", "smallest gap", "time"]
+    head = ["κ", "sizes", "φ_J", "C", "Z at the end", "contacts", "isostatic", "rattlers", "nematic order", "smallest gap",
+            "time"]
     compared_rows = [literature_row(packings, known) for known in VALUES["jammed_ellipses"]]
     return {"packings": table(head, map(packing_row, packings)),
             "literature": table(["κ", "source", "φ_J, literature", *Compared.HEAD[1:3]], compared_rows)}

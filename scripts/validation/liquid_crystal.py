@@ -1,6 +1,6 @@
-"""Monodisperse ellipses in a square box. The nematic order parameter is S = |⟨exp 2iθ⟩|. Particles are inserted at φ = 0.4,
-either at random angles (random start) or all at the angle 0 (aligned start, S = 1). They are swollen to φ and then sampled
-by sweeps of local moves.
+"""Monodisperse ellipses in a square box. The nematic order parameter is S = |⟨exp 2iθ⟩|. Particles are inserted at φ =
+0.4, either at random angles (random start) or all at the angle 0 (aligned start, S = 1). They are swollen to φ and then
+sampled by sweeps of local moves.
 
 ### Isotropic states
 
@@ -8,38 +8,40 @@ There are independent seeds for each start: 24 (N = 500) and 12 (N = 2000). Each
 relaxation times of single particles (C₂ < 1/e, the longest of 6 seeds at N = 1000, commit ebbc22c): 1500 sweeps (κ = 2;
 relaxation time: 77) and 6000 sweeps (κ = 6; relaxation time: 356).
 
-In a liquid N⟨S²⟩ is the sum of ⟨cos 2(θ_i − θ_j)⟩ over all j, i included, and does not depend on N. The column *near* is
-the sum over particles j up to the distance at which g₂(r) first falls to 0; *far* is the contribution of all others.
+In a liquid N⟨S²⟩ is the sum of ⟨cos 2(θ_i − θ_j)⟩ over all j, i included, and does not depend on N. The column *near*
+is the sum over particles j up to the distance at which g₂(r) first falls to 0; *far* is the contribution of all others.
 *Expected* is S = √(π near/4N), the value for many independent groups. Required, within 3 standard errors: both starts
-give the same S; *far* is zero; S ∝ N^(−1/2), distinct from the exponent of a nematic, −1/16 or above. Also required: g₂ stays
-below 1/e beyond a length shorter than half the box. The exponent of N is {powers}.
+give the same S; *far* is zero; S ∝ N^(−1/2), distinct from the exponent of a nematic, −1/16 or above. Also required: g₂
+stays below 1/e beyond a length shorter than half the box. The exponent of N is {powers}.
 
 {isotropic}
 
-Near the transition the alignment of the liquid relaxes more slowly than the orientation of a single particle: at κ = 6 and
-φ = 0.4, S of an aligned start falls from 0.48 after 500 sweeps to 0.31, 0.14, 0.06 after 1000, 2000 and 4000 (N = 1000).
+Near the transition the alignment of the liquid relaxes more slowly than the orientation of a single particle: at κ = 6
+and φ = 0.4, S of an aligned start falls from 0.48 after 500 sweeps to 0.31, 0.14, 0.06 after 1000, 2000 and 4000 (N =
+1000).
 
 ### Nematic states
 
-κ = 6, φ = 0.70. In two dimensions nematic order is only quasi-long-ranged: g₂(r) ∝ r^(−η). At η = 1/4 disclination pairs
-unbind and the nematic melts, so η ≤ 1/4. S decreases as N^(−η/4), with an exponent of −1/16 or above. If the power law
-begins at the nearest-neighbour distance, S is at least about N^(−1/16) (*minimum S*). Required: S of every seed exceeds this
-value after any number of sweeps; the exponent of N is not below −1/16 by more than 3 standard errors; g₂ stays above 1/e
-throughout the box. {NEMATIC_SEEDS} seeds start aligned; the final exponent of N is {power}.
+κ = 6, φ = 0.70. In two dimensions nematic order is only quasi-long-ranged: g₂(r) ∝ r^(−η). At η = 1/4 disclination
+pairs unbind and the nematic melts, so η ≤ 1/4. S decreases as N^(−η/4), with an exponent of −1/16 or above. If the
+power law begins at the nearest-neighbour distance, S is at least about N^(−1/16) (*minimum S*). Required: S of every
+seed exceeds this value after any number of sweeps; the exponent of N is not below −1/16 by more than 3 standard errors;
+g₂ stays above 1/e throughout the box. {NEMATIC_SEEDS} seeds start aligned; the final exponent of N is {power}.
 
 {nematic}
 
-From random starts, domains of different directors must merge and disclinations must annihilate. They do so more completely
-the longer the preparation stays at densities where particles are mobile (1000 particles, commit ebbc22c): growth at the rate
-1e-2 gives S = 0.06 to 0.25 in 0.7 s, 1e-3 gives 0.42 to 0.74 in 4.7 s, and 1e-4 gives 0.87 in 44 s; swelling gives 0.04 to 0.07,
-compression at βP = 10 gives 0.26 in 19 s, and the hybrid method with 100 sweeps per interval 0.10 to 0.12 in 3.7 s.
+From random starts, domains of different directors must merge and disclinations must annihilate. They do so more
+completely the longer the preparation stays at densities where particles are mobile (1000 particles, commit ebbc22c):
+growth at the rate 1e-2 gives S = 0.06 to 0.25 in 0.7 s, 1e-3 gives 0.42 to 0.74 in 4.7 s, and 1e-4 gives 0.87 in 44 s;
+swelling gives 0.04 to 0.07, compression at βP = 10 gives 0.26 in 19 s, and the hybrid method with 100 sweeps per
+interval 0.10 to 0.12 in 3.7 s.
 """
 
 import math
 import statistics
 
 from validation.common import Estimate, estimate, expect, shape, table
-from validation.comparison import SCENES, SEED, Scenes, Tolerance, compared
+from validation.comparison import SCENES, SEED, Scenes, compared
 
 TITLE = "Isotropic and nematic states"
 INPUTS = ["mc", "core", "analysis", "workflow/stages"]

@@ -3,10 +3,11 @@
 
 {steps}
 
-At most {LIMIT} s are allowed. The load of the machine before was {load:.1f}, with {processors} processors. Then a state was prepared in
-Python with `python3-vitrel`, `vitrel bench` ran `vitrel-bench`, and the client of `tests/clients/find_package` was built
-with `libvitrel-dev` and ran. The dynamic linker takes the build for x86-64-v3 where the processor has AVX2, and the other
-one under the mask of an old processor. Nothing stays when the packages are removed. Sizes of the packages:
+At most {LIMIT} s are allowed. The load of the machine before was {load:.1f}, with {processors} processors. Then a state
+was prepared in Python with `python3-vitrel`, `vitrel bench` ran `vitrel-bench`, and the client of
+`tests/clients/find_package` was built with `libvitrel-dev` and ran. The dynamic linker takes the build for x86-64-v3
+where the processor has AVX2, and the other one under the mask of an old processor. Nothing stays when the packages are
+removed. Sizes of the packages:
 
 {sizes}
 """

@@ -1,12 +1,12 @@
-"""Ellipsoids with semi-axes a : a/R_1 : a/R_2 are inserted at random in a periodic cube at 1 % (or less) and grow during
-event-driven dynamics. `vitrel sweep` runs the files `ghossein_*.toml` of `params/articles`, one job at a time. The growth
-rate, of all lengths per unit of time, is that of the table, otherwise 0.1. The exact check (tolerance zero) tests every
-packing; the volume fraction agrees with the target to 1e-11. Seconds are those of the whole preparation, on one core of
-{processor}; the published ones were measured with MATLAB at 1.6 GHz. The table lists means of ten runs with standard errors,
-and the ρ of as many random directions (*random ρ*). The target volume fractions are the maximum values of the article. The
-last column lists the maximum reached by vitrel: the mean of three packings grown at the rate {SLOW_RATE:g} to a reduced
-pressure of 10⁶, required to be no lower. There Z ≈ 6/(1 − φ/φ_J), so the fraction is 6 millionths below its limit. The article
-stops when 50 iterations gain less than 0.1 %.
+"""Ellipsoids with semi-axes a : a/R_1 : a/R_2 are inserted at random in a periodic cube at 1 % (or less) and grow
+during event-driven dynamics. `vitrel sweep` runs the files `ghossein_*.toml` of `params/articles`, one job at a time.
+The growth rate, of all lengths per unit of time, is that of the table, otherwise 0.1. The exact check (tolerance zero)
+tests every packing; the volume fraction agrees with the target to 1e-11. Seconds are those of the whole preparation, on
+one core of {processor}; the published ones were measured with MATLAB at 1.6 GHz. The table lists means of ten runs with
+standard errors, and the ρ of as many random directions (*random ρ*). The target volume fractions are the maximum values
+of the article. The last column lists the maximum reached by vitrel: the mean of three packings grown at the rate
+{SLOW_RATE:g} to a reduced pressure of 10⁶, required to be no lower. There Z ≈ 6/(1 − φ/φ_J), so the fraction is 6
+millionths below its limit. The article stops when 50 iterations gain less than 0.1 %.
 
 {article}
 
@@ -18,14 +18,15 @@ expected factor is √8 = 2.8; in an ordered packing ρ − 1 would not decrease
 {larger}
 
 Jammed packings of 1000 particles at the same reduced pressure, five seeds, must be as dense as in the literature. The
-contacts are per particle and without rattlers. Spheres have the isostatic number, but for some 2 % of neighbours that nearly
-touch; ellipsoids have fewer (Donev et al. 2007).
+contacts are per particle and without rattlers. Spheres have the isostatic number, but for some 2 % of neighbours that
+nearly touch; ellipsoids have fewer (Donev et al. 2007).
 
 {jammed}
 
-The packings of figures 2 to 5 are those of `ghossein_figure_2.toml` to `_5`. `vitrel report` draws ρ, which approaches 1 as the number of particles increases (`ghossein_figure_6.toml`), and the times
-against number, volume fraction and aspect ratio (`ghossein_figure_7.toml` to `_9`), with their exponents beside those of the
-article: 1.03 beside 1.5, 0.8 beside 2.6, and 0.9 beside 0.6 up to R = 10 and 2.8 beyond (commit 91c266f).
+The packings of figures 2 to 5 are those of `ghossein_figure_2.toml` to `_5`. `vitrel report` draws ρ, which approaches
+1 as the number of particles increases (`ghossein_figure_6.toml`), and the times against number, volume fraction and
+aspect ratio (`ghossein_figure_7.toml` to `_9`), with their exponents beside those of the article: 1.03 beside 1.5, 0.8
+beside 2.6, and 0.9 beside 0.6 up to R = 10 and 2.8 beyond (commit 91c266f).
 """
 
 import tomllib

@@ -1,6 +1,6 @@
-"""The package `vitrel` has builds for x86-64 and for x86-64-v3, and the dynamic linker takes the second one where
-the processor has AVX2. All scenes of `scripts/checksums` were run by the native build, by the installation, and by
-the installation under the mask of an old processor, which gets the first one and the functions of the C library without
+"""The package `vitrel` has builds for x86-64 and for x86-64-v3, and the dynamic linker takes the second one where the
+processor has AVX2. All scenes of `scripts/checksums` were run by the native build, by the installation, and by the
+installation under the mask of an old processor, which gets the first one and the functions of the C library without
 fused multiply-add. Trajectories and checkpoints must have the same bits; tables must agree within {TABLES} of their
 largest number.
 
@@ -8,8 +8,8 @@ largest number.
 - native and x86-64, masked: {older}
 
 Checkpoints have the same bits, so that any of these builds continues what another one has begun. Relative to the native
-build, x86-64-v3 makes 0.99 to 1.01 times as many collisions per second, and x86-64 0.83 to 0.87 times (N = 1024, medians of five
-runs in turns, commit 84768c6).
+build, x86-64-v3 makes 0.99 to 1.01 times as many collisions per second, and x86-64 0.83 to 0.87 times (N = 1024,
+medians of five runs in turns, commit 84768c6).
 """
 
 import os

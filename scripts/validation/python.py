@@ -1,9 +1,9 @@
-"""Pairs of ellipses from NumPy arrays to NumPy arrays: 0.93 of the rate of a loop in C++ for overlaps and 0.83 for first
-contacts, with the same numbers of both (commit 38009a9).
+"""Pairs of ellipses from NumPy arrays to NumPy arrays: 0.93 of the rate of a loop in C++ for overlaps and 0.83 for
+first contacts, with the same numbers of both (commit 38009a9).
 
-A run of {PARTICLES} ellipses (κ = 2, φ = 0.6) that writes a frame every {COLLISIONS_PER_FRAME} collisions, with and without a function
-that is called with every frame: {share:+.1%} (median of {ROUNDS} pairs of runs of {seconds:.1f} s), of which the copy of the frame is a
-part; below {MAX_CALLBACK:.0%} is required.
+A run of {PARTICLES} ellipses (κ = 2, φ = 0.6) that writes a frame every {COLLISIONS_PER_FRAME} collisions, with and
+without a function that is called with every frame: {share:+.1%} (median of {ROUNDS} pairs of runs of {seconds:.1f} s),
+of which the copy of the frame is a part; below {MAX_CALLBACK:.0%} is required.
 """
 
 import pathlib

@@ -1,14 +1,15 @@
 """In a Debian 13 system that has only what apt needs, without a package index, the packages of
-`scripts/install_dependencies build python wheel` were installed in {dependencies:.0f} s, and vitrel in {seconds:.0f} s by
+`scripts/install_dependencies build python wheel` were installed in {dependencies:.0f} s, and vitrel in {seconds:.0f} s
+by
 
     pip install --no-build-isolation .
 
-into a virtual environment with the system's packages (load before: {load:.1f}, {processors} processors). In Python, a state was
-prepared, and a run and a sweep of two densities were made, with the program that pip had installed, although its folder
-was not in the path. A source distribution, which has no git, was installed in the same way: it has the same files, says
-the same commit, and computes the same numbers. In `site-packages` there is nothing but the package `vitrel` and its
-metadata; the program and its texts are where the environment has such files. Program and module have no instructions of
-newer processors and name no folder of libraries. Nothing stays when the package is removed.
+into a virtual environment with the system's packages (load before: {load:.1f}, {processors} processors). In Python, a
+state was prepared, and a run and a sweep of two densities were made, with the program that pip had installed, although
+its folder was not in the path. A source distribution, which has no git, was installed in the same way: it has the same
+files, says the same commit, and computes the same numbers. In `site-packages` there is nothing but the package `vitrel`
+and its metadata; the program and its texts are where the environment has such files. Program and module have no
+instructions of newer processors and name no folder of libraries. Nothing stays when the package is removed.
 
 {table}
 """

@@ -1,32 +1,32 @@
-"""`params/self_diffusion.toml`: elastic Newtonian hard spheres of radius 1 in a cube of side L, two runs of every system. D is
-the slope of the mean squared displacement that `vitrel analyze` reports, with its standard error. The fit starts at the time
-in the column *from*: about three times τ = (L/2π)²/(η/(ρ m) + D), in which the slowest shear modes of the box
-decay, or more, and at least 3, when particles have left their cages. By mode-coupling theory these modes have yet to add
-4 τ e⁻³ kT/(N m) to D after 3 τ: at φ = 0.3 this is 0.6 % for N = 108 and 0.2 % for N = 4000, and less later in the fit.
-D_E is the Enskog theory with the contact value of Carnahan and Starling (1969).
+"""`params/self_diffusion.toml`: elastic Newtonian hard spheres of radius 1 in a cube of side L, two runs of every
+system. D is the slope of the mean squared displacement that `vitrel analyze` reports, with its standard error. The fit
+starts at the time in the column *from*: about three times τ = (L/2π)²/(η/(ρ m) + D), in which the slowest shear modes
+of the box decay, or more, and at least 3, when particles have left their cages. By mode-coupling theory these modes
+have yet to add 4 τ e⁻³ kT/(N m) to D after 3 τ: at φ = 0.3 this is 0.6 % for N = 108 and 0.2 % for N = 4000, and less
+later in the fit. D_E is the Enskog theory with the contact value of Carnahan and Starling (1969).
 
-The line D(L) = D(∞) + s/L, linear in N^(−1/3), is fitted with weights; the column *residual* is in standard errors. The law
-assumes that the box leaves the structure of the fluid unchanged. Systems whose compressibility factor Z differs by more than
-{FINITE_SIZE:.1%} from that of the largest are therefore not fitted; their residuals are in parentheses. This condition was
-added after a first run, in which the line through all sizes at φ = 0.49 was 16 % too steep; *s, all sizes* is the slope of
-that line in this run.
+The line D(L) = D(∞) + s/L, linear in N^(−1/3), is fitted with weights; the column *residual* is in standard errors. The
+law assumes that the box leaves the structure of the fluid unchanged. Systems whose compressibility factor Z differs by
+more than {FINITE_SIZE:.1%} from that of the largest are therefore not fitted; their residuals are in parentheses. This
+condition was added after a first run, in which the line through all sizes at φ = 0.49 was 16 % too steep; *s, all
+sizes* is the slope of that line in this run.
 
-The centre of mass is at rest, so displacements are relative to it, and kT = 1 refers to the remaining 3(N − 1) degrees of
-freedom. No factor N/(N − 1) is applied: the conserved momentum subtracts kT/(N m) from the velocity correlation at all times,
-which is the term k = 0 that the hydrodynamic sum over wave vectors leaves out, so it is part of s.
+The centre of mass is at rest, so displacements are relative to it, and kT = 1 refers to the remaining 3(N − 1) degrees
+of freedom. No factor N/(N − 1) is applied: the conserved momentum subtracts kT/(N m) from the velocity correlation at
+all times, which is the term k = 0 that the hydrodynamic sum over wave vectors leaves out, so it is part of s.
 
 {diffusion}
 
-Hydrodynamics predicts s = −{VALUES[lattice_sum]} kT/(6π η) (Dünweg and Kremer 1993; Yeh and Hummer 2004). The viscosity η is measured in
-other runs, {seeds} of {PARTICLES} spheres each, from the Helfand moments of the stress. η_E is the viscosity of the Enskog theory.
-The runs and the method have nothing in common with the displacements except the dynamics. Required: a ratio of the slopes
-within {SLOPE_TOLERANCE:.0%} of 1, and χ² below {LARGEST_CHI_SQUARE[2]} (2 degrees of freedom) or {LARGEST_CHI_SQUARE[3]} (3); false-alarm rate of
-χ²: 0.1 % per row.
+Hydrodynamics predicts s = −{VALUES[lattice_sum]} kT/(6π η) (Dünweg and Kremer 1993; Yeh and Hummer 2004). The viscosity
+η is measured in other runs, {seeds} of {PARTICLES} spheres each, from the Helfand moments of the stress. η_E is the
+viscosity of the Enskog theory. The runs and the method have nothing in common with the displacements except the
+dynamics. Required: a ratio of the slopes within {SLOPE_TOLERANCE:.0%} of 1, and χ² below {LARGEST_CHI_SQUARE[2]} (2
+degrees of freedom) or {LARGEST_CHI_SQUARE[3]} (3); false-alarm rate of χ²: 0.1 % per row.
 
 {slopes}
 
-The fit of Speedy (1987) to earlier simulations of about {SPEEDY_PARTICLES} particles, compared with the system of that size. Required:
-agreement within {SPEEDY_TOLERANCE:.0%}.
+The fit of Speedy (1987) to earlier simulations of about {SPEEDY_PARTICLES} particles, compared with the system of that
+size. Required: agreement within {SPEEDY_TOLERANCE:.0%}.
 
 {speedy}
 """

@@ -1,15 +1,16 @@
-"""`vitrel sweep` runs `params/articles/mueller_figure_7_density.toml` and `mueller_figure_7_modulus.toml`: elastic spheres
-from a simple cubic crystal. An *early release* is a contact in which a third particle hits one of the pair. A *blocked
-rotation* is a contact whose rotation a neighbour blocks. Both are given per 1000 collisions.
+"""`vitrel sweep` runs `params/articles/mueller_figure_7_density.toml` and `mueller_figure_7_modulus.toml`: elastic
+spheres from a simple cubic crystal. An *early release* is a contact in which a third particle hits one of the pair. A
+*blocked rotation* is a contact whose rotation a neighbour blocks. Both are given per 1000 collisions.
 
-Theory is the kinetic theory of a dilute gas of nearly hard spheres, with the mean contact duration τ and the mean free time
-τ_f. A third particle hits one of the pair in a fraction (3√3/4) τ/τ_f of the collisions; it blocks the rotation in a fraction
-(π/6 + √3/16) τ/τ_f. In addition, after an early release the former partner can block the rotation of the released particle
-with the third one. Random sampling of such encounters gives a fraction of {REFUSED} of the early releases. Both vanish in
-the dilute limit and in the hard limit.
+Theory is the kinetic theory of a dilute gas of nearly hard spheres, with the mean contact duration τ and the mean free
+time τ_f. A third particle hits one of the pair in a fraction (3√3/4) τ/τ_f of the collisions; it blocks the rotation in
+a fraction (π/6 + √3/16) τ/τ_f. In addition, after an early release the former partner can block the rotation of the
+released particle with the third one. Random sampling of such encounters gives a fraction of {REFUSED} of the early
+releases. Both vanish in the dilute limit and in the hard limit.
 
-Required: a deviation from theory of at most {SIGMAS} standard errors, of so many random events, and a tenth, up to η = {THIN};
-at most {USUAL:g} of the collisions at η = 0.001 and Y = 1 GPa, and {VANISHED:g} at η = 0.0003 and at Y = 100 GPa.
+Required: a deviation from theory of at most {SIGMAS} standard errors, of so many random events, and a tenth, up to η =
+{THIN}; at most {USUAL:g} of the collisions at η = 0.001 and Y = 1 GPa, and {VANISHED:g} at η = 0.0003 and at Y = 100
+GPa.
 
 {table}
 """
@@ -41,8 +42,12 @@ def expected_exceptions(packing_fraction, modulus):
     contact = 3.2180654597 * stiffness**-0.4 * (math.sqrt(2) * speed) ** -0.2 * math.gamma(0.9)
     number_density = packing_fraction / (4 * math.pi / 3 * radius**3)
     free = 1 / (number_density * math.pi * (2 * radius) ** 2 * 4 * speed / math.sqrt(2 * math.pi))
+    share = contact / free
     hit, in_the_way = 3 * math.sqrt(3) / 4, math.pi / 6 + math.sqrt(3) / 16
-    return {RELEASES: hit * contact / free, ROTATIONS: (in_the_way + REFUSED * hit) * contact / free}
+    return {
+        RELEASES: hit * share,
+        ROTATIONS: (in_the_way + REFUSED * hit) * share,
+    }
 
 
 def gases(build):
@@ -55,20 +60,22 @@ def gases(build):
     return sorted(found.items())
 
 
-def cells(gas, scene, name, collisions):
-    found, expected = scene.mean(f"run.{name}").mean, expected_exceptions(*gas)[name]
-    measured = Estimate(found, math.sqrt(expected / collisions))
-    if gas[0] <= THIN:
-        compared(f"η, Y = {gas}: {name}", measured, expected, Tolerance(SIGMAS, relative=0.1))
-    expect(found <= LARGEST.get(gas, 1), f"η, Y = {gas}: {name} is {found}")
-    return [f"{1e3 * expected:.3f}", Estimate(1e3 * found, 1e3 * measured.error)]
-
-
-def row(gas, scene):
+def cells(gas, scene, name):
+    """Theory and measurement, per 1000 collisions."""
     collisions = sum(scene.every("run.collisions"))
-    return [*gas, collisions, *(cell for name in (RELEASES, ROTATIONS) for cell in cells(gas, scene, name, collisions))]
+    expected = expected_exceptions(*gas)[name]
+    error = math.sqrt(expected / collisions)
+    found = Estimate(scene.mean(f"run.{name}").mean, error)
+    if gas[0] <= THIN:
+        compared(f"η, Y = {gas}: {name}", found, expected, Tolerance(SIGMAS, relative=0.1))
+    expect(found.mean <= LARGEST.get(gas, 1), f"η, Y = {gas}: {name} is {found}")
+    return [f"{1e3 * expected:.3f}", Estimate(1e3 * found.mean, 1e3 * error)]
 
 
 def measure(build):
+    rows = []
+    for gas, scene in gases(build):
+        collisions = sum(scene.every("run.collisions"))
+        rows.append([*gas, collisions, *cells(gas, scene, RELEASES), *cells(gas, scene, ROTATIONS)])
     head = ["η", "Y (GPa)", "collisions", "early releases, theory", "measured", "blocked rotations, theory", "measured"]
-    return {"table": table(head, [row(*gas) for gas in gases(build)])}
+    return {"table": table(head, rows)}

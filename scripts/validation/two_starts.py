@@ -1,13 +1,14 @@
-"""N = 1000 particles with sizes σ distributed as σ⁻³ (23 %), at the highest density of the [study of the glass](glass.md)
-and 0.01 above it. One state is compressed from random places at φ = 0.3 by growth at the rate 0.01, the other one expanded
-from a state that is {EXCESS} denser, prepared by growth that alternates with event chains and collective exchanges. Then
-both are sampled by event chains with four steps of collective exchanges per particle and sweep: everything is measured {SAMPLES}
-times, {APART} decorrelations of places, orientations and sizes apart (`decorrelations` of the stage `sample`), after as many
-as {MIXING} samples. Z is that of the chains, between two samples. Errors take the correlation of the samples into account.
-Required: Z to {LARGEST_ERROR:.1%}; all quantities of both starts, and of both halves of each, within {ERRORS} standard errors; ψ₆ below
-{LARGEST_HEXATIC}. *Sizes of neighbours*: Σ δ_i δ_j over neighbours, per particle, δ the deviation of the size from the mean in
-standard deviations. *S of sizes*: ⟨|Σ δ_j exp(iq·r_j)|²⟩/N at the smallest wave numbers; a liquid that separates by size would
-show large and growing values there.
+"""N = 1000 particles with sizes σ distributed as σ⁻³ (23 %), at the highest density of the [study of the
+glass](glass.md) and 0.01 above it. One state is compressed from random places at φ = 0.3 by growth at the rate 0.01,
+the other one expanded from a state that is {EXCESS} denser, prepared by growth that alternates with event chains and
+collective exchanges. Then both are sampled by event chains with four steps of collective exchanges per particle and
+sweep: everything is measured {SAMPLES} times, {APART} decorrelations of places, orientations and sizes apart
+(`decorrelations` of the stage `sample`), after as many as {MIXING} samples. Z is that of the chains, between two
+samples. Errors take the correlation of the samples into account. Required: Z to {LARGEST_ERROR:.1%}; all quantities of
+both starts, and of both halves of each, within {ERRORS} standard errors; ψ₆ below {LARGEST_HEXATIC}. *Sizes of
+neighbours*: Σ δ_i δ_j over neighbours, per particle, δ the deviation of the size from the mean in standard deviations.
+*S of sizes*: ⟨|Σ δ_j exp(iq·r_j)|²⟩/N at the smallest wave numbers; a liquid that separates by size would show large
+and growing values there.
 
 {table}
 """
