@@ -6,7 +6,6 @@ import os
 import pathlib
 import sys
 import tempfile
-import urllib.parse
 
 from validation.common import ROOT, expect, output_of
 from validation.literature import carnahan_starling
@@ -28,12 +27,6 @@ WARNED_STEP, LEAST_DEVIATION = 0.3, 0.06
 REACHED = {"disks, 1 : 1.4": 0.83, "κ = 1.4, 1 : 1.4": 0.86, "κ = 2": 0.8, "κ = 6": 0.8}  # by growth at the default rate
 EXPONENTS = {("vitrel", "ellipses"): (0.8, 1.3), ("vitrel", "circles"): (0.8, 1.3),
              ("thesis", "ellipses"): (1.7, 2.5), ("thesis", "circles"): (2.4, 3.2)}
-
-# Saves every chart of the page as the button "SVG" does.
-SVG = """(() => { const saved = [], click = HTMLAnchorElement.prototype.click;
-  HTMLAnchorElement.prototype.click = function () { saved.push([this.download, this.href]); };
-  for (const button of document.querySelectorAll('.chart .tools button')) if (button.textContent === 'SVG') button.click();
-  HTMLAnchorElement.prototype.click = click; return saved; })()"""
 
 
 def of(rows, **values):
@@ -185,8 +178,8 @@ def save_figures(page, folder):
     with Browser(os.environ.get("CHROMIUM", "chromium")) as browser:
         browser.resize(900, 700, "light")
         browser.open(f"file://{page}")
-        for name, address in browser.evaluate(SVG):
-            folder.joinpath(name).write_text(urllib.parse.unquote(address.split(",", 1)[1]), encoding="utf-8")
+        for name, text in browser.saved("SVG"):
+            folder.joinpath(name).write_text(text, encoding="utf-8")
 
 
 def write(build, name):

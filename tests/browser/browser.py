@@ -9,6 +9,16 @@ import shutil
 import subprocess
 import tempfile
 import time
+import urllib.parse
+
+# Name and address of what the buttons of this name in tools within these elements save.
+SAVED = """(within, name) => {
+  const saved = [], click = HTMLAnchorElement.prototype.click;
+  HTMLAnchorElement.prototype.click = function () { saved.push([this.download, this.href]); };
+  for (const button of document.querySelectorAll(`${within} .tools button`)) if (button.textContent === name) button.click();
+  HTMLAnchorElement.prototype.click = click;
+  return saved;
+}"""
 
 
 class Browser:
@@ -128,6 +138,12 @@ class Browser:
     def wheel(self, x, y, delta):
         self.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=delta)
         self.settle()
+
+    def saved(self, button, within=".chart"):
+        """Name and text of what every button of this name hands to the browser to save."""
+        self.settle()
+        found = self.evaluate(f"({SAVED})({json.dumps(within)}, {json.dumps(button)})")
+        return [(name, urllib.parse.unquote(address.split(",", 1)[1])) for name, address in found]
 
     def screenshot(self, path, whole_page=True):
         options = {"captureBeyondViewport": whole_page}

@@ -13,16 +13,6 @@ COLOURS = f"(k) => {{ {PIXELS}" + """
   for (let at = 0; at < data.length; at += 4) colours.add(data[at] << 16 | data[at + 1] << 8 | data[at + 2]);
   return colours.size;
 }"""
-# What the link of this name beside figure k saves.
-SAVED = """(k, name) => {
-  let saved = '';
-  const click = HTMLAnchorElement.prototype.click;
-  HTMLAnchorElement.prototype.click = function () { saved = this.href; };
-  const tools = document.querySelectorAll('.chart')[k].querySelectorAll('.tools button');
-  [...tools].find((button) => button.textContent === name).click();
-  HTMLAnchorElement.prototype.click = click;
-  return decodeURIComponent(saved.slice(saved.indexOf(',') + 1));
-}"""
 CHARTS = {"pair_path.html": 4, "impact_paths.html": 2, "scaled_maps.html": 25}
 
 
@@ -30,6 +20,10 @@ class Figures(PageTest):
     def ask(self, function, *arguments):
         self.browser.settle()
         return self.browser.evaluate(f"({function})({', '.join(map(json.dumps, arguments))})")
+
+    def saved(self, number, button):
+        """What this button beside a figure saves."""
+        return self.browser.saved(button)[number][1]
 
     def test_fit_every_width_in_both_schemes(self):
         for (name, charts), width, scheme in itertools.product(CHARTS.items(), WIDTHS, ("light", "dark")):
@@ -45,19 +39,19 @@ class Figures(PageTest):
 
     def test_what_is_saved_is_what_is_shown(self):
         self.open("scaled_maps.html")
-        lines = self.ask(SAVED, 3, "CSV").splitlines()
+        lines = self.saved(3, "CSV").splitlines()
         self.assertEqual(lines[0], "ln_c_phi_over_min,ln_l_over_min,duration")
         self.assertEqual(len(lines), 1 + 41**2)
-        self.assertGreater(self.ask(SAVED, 3, "SVG").count("<path"), 1600)
+        self.assertGreater(self.saved(3, "SVG").count("<path"), 1600)
         self.open("impact_paths.html")
-        head, *rows = self.ask(SAVED, 1, "CSV").splitlines()
+        head, *rows = self.saved(1, "CSV").splitlines()
         self.assertEqual(head.split(",")[:3], ["time", "integrated_x_1", "integrated_y_1"])
         self.assertEqual(len(rows), 131)
-        self.assertIn("soft spheres", self.ask(SAVED, 1, "SVG"))
+        self.assertIn("soft spheres", self.saved(1, "SVG"))
 
     def test_first_contact_is_marked_inside_the_frame(self):
         self.open("pair_path.html")
-        self.assertIn('text-anchor="start"', self.ask(SAVED, 0, "SVG").split("first contact")[0].split("<text")[-1])
+        self.assertIn('text-anchor="start"', self.saved(0, "SVG").split("first contact")[0].split("<text")[-1])
 
 
 if __name__ == "__main__":

@@ -85,22 +85,10 @@ class Paper(PageTest):
         self.assertLess(ink(sheet), 0.5)
         self.assertEqual(self.text("theme"), "Light page")
 
-    def saved(self, chart, format_):
-        """What the button of a chart hands to the browser to save."""
-        return self.browser.evaluate(f"""(() => {{
-          let saved;
-          const click = HTMLAnchorElement.prototype.click;
-          HTMLAnchorElement.prototype.click = function () {{ saved = [this.download, this.href]; }};
-          [...document.querySelectorAll('{chart} .tools button')].find((button) => button.textContent === '{format_}').click();
-          HTMLAnchorElement.prototype.click = click;
-          return saved;
-        }})()""")
-
     def test_charts_are_saved_as_vectors(self):
         self.open("sweep.html")
-        name, address = self.saved("#motion .chart", "SVG")
+        (name, text), *_ = self.browser.saved("SVG", "#motion .chart")
         self.assertEqual(name, "mean_squared_displacement.svg")
-        text = self.browser.evaluate(f"decodeURIComponent({address!r}.split(',').slice(1).join(','))")
         tree = xml.fromstring(text)
         self.assertEqual(tree.tag, SVG + "svg")
         texts = [node.text for node in tree.iter(SVG + "text")]
@@ -115,9 +103,9 @@ class Paper(PageTest):
 
     def test_charts_are_saved_as_pictures(self):
         self.open("sweep.html")
-        name, address = self.saved("#motion .chart", "PNG")
+        (name, content), *_ = self.browser.saved("PNG", "#motion .chart")
         self.assertEqual(name, "mean_squared_displacement.png")
-        picture = base64.b64decode(address.split(",")[1])
+        picture = base64.b64decode(content)
         self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
         width, height = int.from_bytes(picture[16:20], "big"), int.from_bytes(picture[20:24], "big")
         plot = self.browser.evaluate("""(() => { const canvas = document.querySelector('#motion .chart canvas');
