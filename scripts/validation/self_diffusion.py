@@ -87,16 +87,12 @@ class Line:
     """The weighted least-squares line D(L) = limit + slope/L."""
 
     def __init__(self, points):
-        weights = [1 / p.error**2 for p in points]
-        inverse = [1 / p.length for p in points]
-        total = sum(weights)
-        mean = sum(w * x for w, x in zip(weights, inverse)) / total
-        spread = sum(w * (x - mean) ** 2 for w, x in zip(weights, inverse))
-        self.slope = sum(w * (x - mean) * p.value for w, x, p in zip(weights, inverse, points)) / spread
-        self.limit = sum(w * p.value for w, p in zip(weights, points)) / total - self.slope * mean
-        self.slope_error = spread**-0.5
-        self.limit_error = math.sqrt(1 / total + mean**2 / spread)
-        self.chi_square = sum(w * (p.value - self.at(p.length)) ** 2 for w, p in zip(weights, points))
+        import numpy  # only here: a test imports all validations
+
+        x, y, error = numpy.array([(1 / p.length, p.value, p.error) for p in points]).T
+        (self.slope, self.limit), covariance = numpy.polyfit(x, y, 1, w=1 / error, cov="unscaled")
+        self.slope_error, self.limit_error = numpy.sqrt(numpy.diag(covariance))
+        self.chi_square = (((y - self.limit - self.slope * x) / error) ** 2).sum()
         self.degrees = len(points) - 2
 
     def at(self, length):
