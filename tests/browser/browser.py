@@ -11,11 +11,13 @@ import tempfile
 import time
 import urllib.parse
 
-# Name and address of what the buttons of this name in tools within these elements save.
-SAVED = """(within, name) => {
+# Name and address of what the buttons of this name in the tools of these elements save, or of one of them.
+SAVED = """(within, name, number) => {
   const saved = [], click = HTMLAnchorElement.prototype.click;
   HTMLAnchorElement.prototype.click = function () { saved.push([this.download, this.href]); };
-  for (const button of document.querySelectorAll(`${within} .tools button`)) if (button.textContent === name) button.click();
+  const all = [...document.querySelectorAll(within)];
+  for (const element of number === null ? all : [all[number]])
+    for (const button of element.querySelectorAll('.tools button')) if (button.textContent === name) button.click();
   HTMLAnchorElement.prototype.click = click;
   return saved;
 }"""
@@ -139,10 +141,10 @@ class Browser:
         self.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=delta)
         self.settle()
 
-    def saved(self, button, within=".chart"):
-        """Name and text of what every button of this name hands to the browser to save."""
+    def saved(self, button, within=".chart", number=None):
+        """Name and text of what the buttons of this name hand to the browser to save, of all charts or of one."""
         self.settle()
-        found = self.evaluate(f"({SAVED})({json.dumps(within)}, {json.dumps(button)})")
+        found = self.evaluate(f"({SAVED})({', '.join(map(json.dumps, (within, button, number)))})")
         return [(name, urllib.parse.unquote(address.split(",", 1)[1])) for name, address in found]
 
     def screenshot(self, path, whole_page=True):

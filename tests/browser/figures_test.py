@@ -23,7 +23,8 @@ class Figures(PageTest):
 
     def saved(self, number, button):
         """What this button beside a figure saves."""
-        return self.browser.saved(button)[number][1]
+        (_, text), = self.browser.saved(button, number=number)
+        return text
 
     def test_fit_every_width_in_both_schemes(self):
         for (name, charts), width, scheme in itertools.product(CHARTS.items(), WIDTHS, ("light", "dark")):

@@ -87,7 +87,7 @@ class Paper(PageTest):
 
     def test_charts_are_saved_as_vectors(self):
         self.open("sweep.html")
-        (name, text), *_ = self.browser.saved("SVG", "#motion .chart")
+        (name, text), = self.browser.saved("SVG", "#motion .chart", 0)
         self.assertEqual(name, "mean_squared_displacement.svg")
         tree = xml.fromstring(text)
         self.assertEqual(tree.tag, SVG + "svg")
@@ -103,7 +103,7 @@ class Paper(PageTest):
 
     def test_charts_are_saved_as_pictures(self):
         self.open("sweep.html")
-        (name, content), *_ = self.browser.saved("PNG", "#motion .chart")
+        (name, content), = self.browser.saved("PNG", "#motion .chart", 0)
         self.assertEqual(name, "mean_squared_displacement.png")
         picture = base64.b64decode(content)
         self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
