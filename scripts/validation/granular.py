@@ -30,7 +30,7 @@ SCENES = Scenes(
     settings=(f"system.particles={PARTICLES}", f"system.packing_fraction={PHI}",
               f"prepare.stage.0.packing_fraction={PHI}", f"dynamics.driving.interval={KICKS * FREE_TIME}",
               f"dynamics.equilibration={RELAXATION * FREE_TIME}", f"dynamics.duration={APART * FRAMES * FREE_TIME}",
-              f"output.samples.interval={APART * FREE_TIME}", f"analysis.structure.frames={FRAMES}"),
+              f"output.samples.interval={APART * FREE_TIME}", f"analysis.structure.frames={FRAMES}", 'analysis.only="velocities"'),
     rows=tuple({RESTITUTION: e, "dynamics.driving.power": driving_power(e, PHI)} for e in (0.8, 0.5)),
     seeds=(1,), tables=("velocities",))
 
