@@ -13,7 +13,8 @@ from validation.literature import carnahan_starling
 TITLE = "Studies"
 INPUTS = {"overlap": ["bench", "core"], "contact-time": ["bench", "core"], "whole-run": ["bench", "core", "edmd"],
           "engine": ["bench", "core", "edmd"], "sampling": ["bench", "core", "mc"], "soft-contacts": ["bench", "core", "edmd"],
-          "analysis": ["bench", "analysis", "core"], "thesis": ["bench", "core", "edmd"]}
+          "peers": ["bench", "core"], "dense": ["bench", "core", "mc", "edmd", "workflow"],
+          "brownian-step": ["bench", "core", "edmd", "analysis"], "analysis": ["bench", "analysis", "core"], "thesis": ["bench", "core", "edmd"]}
 FOLDER = ROOT / "docs" / "studies"
 OPTIONS = {"contact-time": ["--pairs", "10000", "--seconds", "20"],
            "thesis": ["--seconds", "2"]}
@@ -185,8 +186,8 @@ def save_figures(page, folder):
 def write(build, name):
     """Measures a study and writes its page, if it meets what is required; the first lines."""
     with tempfile.TemporaryDirectory() as folder:
-        output_of([build / "bench/vitrel-bench", name, *OPTIONS.get(name, []), "-q", "-o", folder])
-        made = pathlib.Path(folder, name)
+        output_of([build / "bench/vitrel-bench", name, *OPTIONS.get(name, []), "-q", "-o", name], cwd=folder)
+        made = pathlib.Path(folder, name, name)
         data = json.loads(made.with_suffix(".json").read_text(encoding="utf-8"))
         CHECKS[name]({part["name"]: part["rows"] for part in data["parts"]})
         FOLDER.mkdir(exist_ok=True)
