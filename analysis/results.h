@@ -75,10 +75,10 @@ void write_csv_folder(const std::filesystem::path& folder, const Results& result
 /// The name of the file of units.
 inline constexpr const char* csv_columns = "columns.csv";
 
-/// HDF5: a group per table with attribute `description`; in it an f64 dataset per column, with the
-/// attributes `unit` and, of codes, `labels`, one a line, and `<name>_error` beside it; the texts of the
-/// provenance in a group of that name. The order is kept in the attributes `tables`, `columns` and `entries`. Atomic like
-/// write_csv. Throws FileError.
+/// HDF5: a group per table with attribute `description`; in it an f64 dataset per column, with the attributes `unit`
+/// and, of codes, `labels`, one a line, and `<name>_error` beside it; the texts of the provenance in a group of that
+/// name. The order is kept in the attributes `tables`, `columns` and `entries`. Atomic like write_csv. Throws
+/// FileError.
 void write_results(const std::filesystem::path& path, const Results& results);
 
 /// The names of the tables in what write_results wrote. Throws FileError.

@@ -8,8 +8,8 @@ namespace vitrel {
 
 /// Draws all velocities: v ~ N(0, kT/m) per component and ω ~ N(0, kT/I), from the streams (seed, purpose, step,
 /// particle); then removes the net momentum and rescales translation and rotation to exactly the energies of
-/// `temperature`. Rotations that contacts do not change are at rest: if they are smooth, round particles have ω = 0, and
-/// spheroids have no spin about their axes. A single particle keeps its momentum.
+/// `temperature`. Rotations that contacts do not change are at rest: if they are smooth, round particles have ω = 0,
+/// and spheroids have no spin about their axes. A single particle keeps its momentum.
 ///
 /// The result does not depend on the number of threads. This is both the initial draw and the Brownian step
 /// (thesis, section 1 of the sources): repeated every τ_B, a free particle diffuses with D₀ = kT τ_B/(2m) and
@@ -33,7 +33,8 @@ void set_initial_velocities(Configuration<Dim>& configuration, std::uint64_t see
 /// supplies the energy P per particle and unit of time. Rotations are not kicked. With τ well below the time between
 /// collisions it is the white noise ξ₀² = 2P/(D m).
 ///
-/// A single particle is not kicked, since it would keep its momentum. The result does not depend on the number of threads.
+/// A single particle is not kicked, since it would keep its momentum. The result does not depend on the number of
+/// threads.
 template <int Dim>
 void kick(Configuration<Dim>& configuration, const Driving& driving, std::uint64_t seed,
           std::uint64_t step, int threads = 1);

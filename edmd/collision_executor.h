@@ -136,9 +136,9 @@ class CollisionExecutor {
     return std::max(law.restitution(speed), std::min(1., separation_speed(i, j) / speed));
   }
 
-  /// Surfaces that separate more slowly would touch again at once by rounding. With the contact-time model they must also
-  /// come clear of the contact gap, although they may rotate towards each other with an acceleration of the order of
-  /// v²/R.
+  /// Surfaces that separate more slowly would touch again at once by rounding. With the contact-time model they must
+  /// also come clear of the contact gap, although they may rotate towards each other with an acceleration of the order
+  /// of v²/R.
   double separation_speed(Index i, Index j) const {
     constexpr double of_fastest = 1e-13;  // far above the rounding of velocities
     constexpr double contact_gaps = 1e4;
@@ -154,8 +154,8 @@ class CollisionExecutor {
     return since < contact_duration;
   }
 
-  /// By the contact-time model (inelastic_collapse.h): an elastic, smooth collision instead of this restitution. Surfaces
-  /// that would stay together gain the speed of separation; the energy that this adds is counted.
+  /// By the contact-time model (inelastic_collapse.h): an elastic, smooth collision instead of this restitution.
+  /// Surfaces that would stay together gain the speed of separation; the energy that this adds is counted.
   void collide_again(Index i, Index j, const Vector& d, const Vector& n, double speed,
                      double restitution, RunCounters& counters) {
     const double elastic = std::max(1., separation_speed(i, j) / speed);

@@ -14,7 +14,8 @@ namespace vitrel {
 
 struct FreePath;
 
-/// Targets for the tuning of event chains, whose defaults are optimal (docs/how-it-works/monte-carlo.md), and exchanges of places.
+/// Targets for the tuning of event chains, whose defaults are optimal (docs/how-it-works/monte-carlo.md), and exchanges
+/// of places.
 struct EventChainOptions {
   double contacts = 100;  ///< per chain
   double rotations = 1;   ///< trial rotations per contact; no effect if all are round
@@ -56,16 +57,16 @@ struct ChainState {
 ///
 /// One sweep is a fixed number of chains of one length, with trial rotations of random particles spread evenly among
 /// them, and exchanges of places (exchanges.h) at its end; `tune` chooses them so that a sweep has about N contacts.
-/// Particles are sorted into cells at the start of a sweep. Sweep s draws from the stream (seed, trial_moves, s, 0): chains that start from a stored state continue with
-/// bit-identical results.
+/// Particles are sorted into cells at the start of a sweep. Sweep s draws from the stream (seed, trial_moves, s, 0):
+/// chains that start from a stored state continue with bit-identical results.
 ///
 /// Uniform sampling of all hard states. Divide a chain of length l along x into steps ε → 0. Each of the N lifted
 /// states (hard state, moving particle i) has one successor: i moved by ε or, if it would then overlap j, the same
 /// state with j moving. Conversely each has one predecessor: i moved back by ε or, if it would then overlap k behind
-/// it, the same state with k moving. At fixed orientations a contact depends only on the difference of the two positions,
-/// so j blocks i if and only if i blocks j in the opposite direction. A chain therefore maps lifted states one to one,
-/// and conserves volume (the flow is a translation between contacts): the uniform distribution is invariant (global
-/// balance), since particle and direction are drawn uniformly and independently of the state. Rotations satisfy
+/// it, the same state with k moving. At fixed orientations a contact depends only on the difference of the two
+/// positions, so j blocks i if and only if i blocks j in the opposite direction. A chain therefore maps lifted states
+/// one to one, and conserves volume (the flow is a translation between contacts): the uniform distribution is invariant
+/// (global balance), since particle and direction are drawn uniformly and independently of the state. Rotations satisfy
 /// detailed balance. This does not prove ergodicity; tests compare with independently drawn states.
 ///
 /// The pressure follows from the contacts (michel2014):
@@ -83,8 +84,8 @@ struct ChainState {
 template <int Dim>
 class EventChain {
  public:
-  /// The configuration must be hard, with wrapped positions, and outlive this object. Meanwhile nothing else may move or
-  /// rotate particles.
+  /// The configuration must be hard, with wrapped positions, and outlive this object. Meanwhile nothing else may move
+  /// or rotate particles.
   EventChain(Configuration<Dim>& configuration, const EventChainOptions& options,
              std::uint64_t seed, const ChainState& state = {});
 

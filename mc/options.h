@@ -22,8 +22,8 @@ struct InsertionOptions {
   double packing_fraction = 0.3;     ///< the box is scaled to it
   std::uint64_t attempts = 1000000;  ///< maximum per particle
   bool aligned = false;              ///< all axes along those of space, not random
-  /// ⟨u uᵀ⟩ of the major or figure axes (axis_distribution.h), D × D numbers; empty: isotropic. Around its axis, a body is
-  /// turned at random.
+  /// ⟨u uᵀ⟩ of the major or figure axes (axis_distribution.h), D × D numbers; empty: isotropic. Around its axis, a body
+  /// is turned at random.
   std::vector<double> orientation_tensor = {};
 };
 

@@ -11,9 +11,10 @@
 
 namespace vitrel {
 
-/// Of counting how often a sampled configuration has decorrelated: places, orientations and sizes, each place by place
-/// (place_correlation.h), have all fallen to 1/e at some time since the first configuration. Then the next configuration
-/// is the first one. They are compared after numbers of sweeps that grow by a tenth. A plain value, together with the configuration sufficient to go on counting.
+/// The state of a count of how often a sampled configuration has decorrelated: places, orientations and sizes, each
+/// place by place (place_correlation.h), have all fallen to 1/e at some time since the first configuration. Then the
+/// next configuration is the first one. They are compared after numbers of sweeps that grow by a tenth. A plain value,
+/// together with the configuration sufficient to go on counting.
 struct DecorrelationState {
   std::uint64_t count = 0;
   // Since the first of the present configurations:
@@ -33,9 +34,9 @@ struct SamplingState {
 };
 
 /// Monte Carlo at constant packing fraction, as an equilibration stage: chains and step sizes adapt throughout.
-/// `reached` when `state` counts the requested sweeps or decorrelations, `stalled` if these take more than the maximum of
-/// sweeps, `stopped` on request between two sweeps; the same call then continues with bit-identical results. The reason
-/// says if chains were cut short.
+/// `reached` when `state` counts the requested sweeps or decorrelations, `stalled` if these take more than the maximum
+/// of sweeps, `stopped` on request between two sweeps; the same call then continues with bit-identical results. The
+/// reason says if chains were cut short.
 template <int Dim>
 StageReport sample(Configuration<Dim>& configuration, const SamplingOptions& options,
                    std::uint64_t seed, SamplingState& state, const RunControl& control);

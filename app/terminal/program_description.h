@@ -34,8 +34,8 @@ struct ProgramDescription : CommandDescription {
 inline constexpr const char* file_value = "FILE";
 inline constexpr const char* folder_value = "FOLDER";
 
-/// A script by which bash 4 or later, with or without the package bash-completion, completes commands, options, choices,
-/// files and folders. It holds all words itself and does not run the program.
+/// A script by which bash 4 or later, with or without the package bash-completion, completes commands, options,
+/// choices, files and folders. It holds all words itself and does not run the program.
 std::string bash_completion(const ProgramDescription& program);
 
 /// The same for zsh: a file `_<program>` in a folder of `fpath`, or a text to source after `compinit`.

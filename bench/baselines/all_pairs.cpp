@@ -137,8 +137,8 @@ void AllPairs::set_longest_screen() {
   longest_screen_ = box_.lengths().maxCoeff() / (speed > 0 ? speed : 1);
 }
 
-// For how long the nearest image now, at the separation d, is all that need be asked about. In a direction k in which |d_k| < L_k − R the other
-// images are farther than R away.
+// For how long the nearest image now, at the separation d, is all that need be asked about. In a direction k in which
+// |d_k| < L_k − R the other images are farther than R away.
 double AllPairs::image_lasts(std::size_t i, std::size_t j, const Vec2& d) const {
   const double reach = particles_[i].shape.a + particles_[j].shape.a;
   const Vec2 v = particles_[j].motion.velocity - particles_[i].motion.velocity;

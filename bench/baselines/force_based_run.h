@@ -9,8 +9,8 @@
 
 namespace vitrel::bench {
 
-/// Soft spheres or disks the plain way, as the baseline of the event-driven run: Newton's equations with the force itself
-/// in steps of time, by the velocity Verlet method,
+/// Soft spheres or disks the plain way, as the baseline of the event-driven run: Newton's equations with the force
+/// itself in steps of time, by the velocity Verlet method,
 ///     v* = v + a h/2,  r' = r + v* h,  a' = F(r', v* + a h/2)/m,  v' = v* + a' h/2.
 /// A pair repels as long as it is closer than contact and its force is not negative. Errors ∝ h², near
 /// the ends of contacts with damping ∝ h. Neighbours are found by cells, and anew when somebody has moved by half

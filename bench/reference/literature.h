@@ -3,8 +3,8 @@
 #include <stdexcept>
 
 /// @file
-/// Values of the literature, each once, for the studies and the tests. scripts/validation/literature.py reads the table,
-/// too, and has those that only validations compare with.
+/// Values of the literature, each once, for the studies and the tests. scripts/validation/literature.py reads the
+/// table, too, and has those that only validations compare with.
 namespace vitrel {
 
 /// Z = βP/ρ of a fluid of equal hard ellipses, of the infinite system; error 0: negligible, or not stated.

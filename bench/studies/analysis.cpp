@@ -10,6 +10,7 @@
 #include "analysis/structure/structure_factor.h"
 #include "bench/studies/study.h"
 #include "bench/surveys/best_seconds.h"
+#include "bench/surveys/engine_speed.h"
 #include "core/random/stream.h"
 #include "mc/insertion.h"
 
@@ -22,7 +23,7 @@ struct Size {
   std::size_t frames, particles, lags, threads;
 };
 
-/// Of a particle in every direction, at every step; the standard deviation of its turns is the same.
+/// The standard deviation of a step of a particle in every direction, and of its turn.
 constexpr double step = 0.1;
 
 MemoryTrajectory2 random_walks(const Size& size, std::uint64_t seed = 1) {
@@ -237,8 +238,9 @@ Json measure_estimators(const StudyContext& context) {
   for (std::uint64_t seed = 1; seed <= seeds && !context.control.stop_requested(); ++seed) {
     MemoryTrajectory2 run = random_walks(size, seed);
     for (Estimator& one : all) {
-      Curve curve;
-      one.seconds += best_seconds(1, [&] { curve = one.curve(run); }) / static_cast<double>(seeds);
+      const double begin = processor_seconds();
+      const Curve curve = one.curve(run);
+      one.seconds += (processor_seconds() - begin) / static_cast<double>(seeds);
       one.square += squared_deviation(curve) / static_cast<double>(seeds);
     }
   }

@@ -12,7 +12,6 @@
 #include "bench/surveys/mean.h"
 #include "core/io/h5md.h"
 #include "workflow/analyze/analyze.h"
-#include "workflow/analyze/glass_report.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/run.h"
@@ -58,7 +57,7 @@ std::string run_text(const Effort& effort, const Liquid& liquid, double step, st
 seed = {}
 [[prepare.stage]]
 method = "state"
-file = "{}"
+file = {}
 [dynamics]
 kind = "brownian"
 brownian_step = {}
@@ -71,11 +70,11 @@ samples = {{ interval = {} }}
 only = "relaxation,relaxation_times"
 longest_lag = 0.25
 )",
-                     seed, state.string(), step, unit * liquid.equilibration,
+                     seed, Json(state.string()).dump(), step, unit * liquid.equilibration,
                      unit * liquid.duration * effort.share, unit * liquid.interval);
 }
 
-/// Of one liquid with one step, an entry for each seed.
+/// The results of one liquid with one step: an entry for each seed.
 struct Seeds {
   std::vector<double> translation, rotation;  ///< D₀ τ
   std::vector<double> seconds;                ///< for D₀ t = 1
@@ -84,7 +83,7 @@ struct Seeds {
 void add_run(Seeds& seeds, const Effort& effort, const Liquid& liquid, double step,
              std::uint64_t seed, const std::filesystem::path& state, const RunControl& control) {
   const ScratchFolder folder;
-  const std::filesystem::path output = folder.path() / "run.h5";
+  const std::filesystem::path output = folder.partial() / "run.h5";
   const RunRequest request{parse_parameters(run_text(effort, liquid, step, seed, state), "the run"),
                            output};
   const double begin = processor_seconds();
@@ -127,7 +126,7 @@ void add_liquid(const StudyContext& context, const Effort& effort, const Liquid&
   std::vector<Seeds> of_step(steps.size());
   for (std::uint64_t seed = 1; seed <= effort.seeds; ++seed) {
     const ScratchFolder folder;
-    const std::filesystem::path state = folder.path() / "state.h5";
+    const std::filesystem::path state = folder.partial() / "state.h5";
     const Parameters parameters =
         parse_parameters(system_text(effort, liquid, seed), "the preparation");
     write_state(state, prepare<2>({parameters}, context.control, {}).configuration, {});

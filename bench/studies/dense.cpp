@@ -73,18 +73,20 @@ std::string preparation_text(const System& system, int particles, double packing
                           fmt::format("{}\npacking_fraction = {}", way.stage, packing_fraction));
 }
 
-/// How a preparation ended.
+/// How a preparation ended: "reached", "stuck" or "time is up".
 struct End {
-  const char* how;  ///< "reached", "stuck", "time is up"
+  std::string how;
   double seconds = 0;
   Configuration2 state;
   double reduced_pressure = NAN;
+
+  bool is_reached() const { return how == "reached"; }
 };
 
-/// Of one that may take so many seconds of the processor.
+/// Prepares a state in so many seconds of the processor, if that is possible.
 End prepared(const std::string& text, double seconds, const RunControl& control) {
   const ScratchFolder folder;
-  const std::filesystem::path output = folder.path() / "state.h5";
+  const std::filesystem::path output = folder.partial() / "state.h5";
   const double begin = processor_seconds();
   const RunControl limited{
       [&] { return processor_seconds() - begin > seconds || control.stop_requested(); }, {}, {}};
@@ -115,7 +117,7 @@ Json density_row(const Way& way, const System& system, int particles, double phi
               {"particles", particles},
               {"packing_fraction", phi},
               {"end", end.how}};
-  if (end.how == std::string("reached")) row["ns"] = 1e9 * end.seconds;
+  if (end.is_reached()) row["ns"] = 1e9 * end.seconds;
   add_order(row, end.state);
   return row;
 }
@@ -130,11 +132,12 @@ Json measure_densities(const StudyContext& context) {
     std::set<std::string> failed;
     for (const double phi : system.packing_fractions)
       for (const Way& way : ways) {
-        if (context.control.stop_requested() || (quick && phi > system.packing_fractions[0])) break;
+        if (quick && phi > system.packing_fractions[0]) break;
         if (failed.contains(way.name)) continue;
         const End end =
             prepared(preparation_text(system, particles, phi, way), seconds, context.control);
-        if (end.how != std::string("reached")) failed.insert(way.name);
+        if (context.control.stop_requested()) return rows;
+        if (!end.is_reached()) failed.insert(way.name);
         rows.push_back(density_row(way, system, particles, phi, end));
       }
   }
@@ -146,12 +149,13 @@ Json measure_sizes(const StudyContext& context) {
   Json rows = Json::array();
   for (const int particles : {250, 1000, 4000, 16'000})
     for (const Way& way : ways) {
-      if (context.control.stop_requested() || (context.options.quick && particles > 250)) break;
+      if (context.options.quick && particles > 250) break;
       if (way.name.starts_with("compress")) continue;
-      rows.push_back(density_row(
-          way, system, particles, 0.8,
+      const End end =
           prepared(preparation_text(system, particles, 0.8, way),
-                   context.options.quick ? 2 : 10 * context.options.seconds, context.control)));
+                   context.options.quick ? 2 : 10 * context.options.seconds, context.control);
+      if (context.control.stop_requested()) return rows;
+      rows.push_back(density_row(way, system, particles, 0.8, end));
     }
   return rows;
 }
@@ -182,7 +186,7 @@ Json measure_jamming(const StudyContext& context) {
             "method = \"{}\"\ngrowth_rate = {}\nreduced_pressure = {}", method, rate, goal);
         const End end = prepared(preparation_text(system, particles, 0.8, stage),
                                  quick ? 5 : 10 * context.options.seconds, context.control);
-        if (end.how != std::string("reached")) continue;
+        if (!end.is_reached()) continue;
         const JammedBackbone held = jammed_backbone(end.state, end.reduced_pressure);
         rows.push_back({{"method", method},
                         {"system", system.name},
@@ -213,41 +217,43 @@ Study dense_study() {
        {Column{"reduced_pressure", "Z"}, Column{"contact_number", "contacts"},
         Column{"isostatic_number", "isostatic"}, Column{"rattlers"}})
     jammed.push_back(column);
-  return {
-      .name = "dense",
-      .aliases = {{"preparation"}},
-      .question = "How does one make a dense state, and what does it cost?",
-      .parts = {{.name = "density",
-                 .about = "1000 particles inserted at random at φ = 0.3, and one more stage that "
-                          "brings them to φ on one core. Growth at the rate 10⁻³ is the default of "
-                          "parameter files. Hybrid stages make 100 Monte Carlo sweeps after "
-                          "every interval of growth. Sizes σ⁻³ lie between 0.725 and 1.61. No "
-                          "state has an overlap. A method that is stuck or not done in time is "
-                          "left out of the denser states.",
-                 .measure = measure_densities,
-                 .cases = {{"system"}},
-                 .cost = time,
-                 .others = order,
-                 .varied = "packing_fraction"},
-                {.name = "sizes",
-                 .about = "The same for more and more particles.",
-                 .measure = measure_sizes,
-                 .cases = {{"system"}},
-                 .cost = time,
-                 .others = order,
-                 .varied = "particles"},
-                {.name = "jamming",
-                 .about = "500 particles, grown until Z = βP/ρ is 10⁵, at several rates. The "
-                          "error is how much less dense the packing is than the densest of all. "
-                          "Contacts are those per particle without rattlers (donev2007).",
-                 .measure = measure_jamming,
-                 .cases = {{"system"}},
-                 .cost = time,
-                 .error = {"deficit", "1 − φ/φ of the densest", Shown::error},
-                 .others = jammed,
-                 .varied = "growth_rate",
-                 .smallest_error = 1e-5}},
-      .defaults = {.seconds = 30}};
+  return {.name = "dense",
+          .aliases = {{"preparation"}},
+          .question = "How does one make a dense state, and what does it cost?",
+          .parts =
+              {{.name = "density",
+                .about = "1000 particles inserted at random at φ = 0.3, and one more stage that "
+                         "brings them to φ on one core. Growth at the rate 10⁻³ is the default of "
+                         "parameter files. Hybrid stages make 100 Monte Carlo sweeps after "
+                         "every interval of growth. Sizes σ⁻³ lie between 0.725 and 1.61. No "
+                         "state has an overlap. A method that is stuck or not done in time is "
+                         "left out of the denser states.",
+                .measure = measure_densities,
+                .cases = {{"system"}},
+                .cost = time,
+                .others = order,
+                .varied = "packing_fraction"},
+               {.name = "sizes",
+                .about = "The same for more and more particles.",
+                .measure = measure_sizes,
+                .cases = {{"system"}},
+                .cost = time,
+                .others = order,
+                .varied = "particles"},
+               {.name = "jamming",
+                .about =
+                    "500 particles, grown until Z = βP/ρ is 10⁵, at several rates. The "
+                    "error is how much less dense the packing is than the densest of all; one that "
+                    "takes too long is left out. "
+                    "Contacts are those per particle without rattlers (donev2007).",
+                .measure = measure_jamming,
+                .cases = {{"system"}},
+                .cost = time,
+                .error = {"deficit", "1 − φ/φ of the densest", Shown::error},
+                .others = jammed,
+                .varied = "growth_rate",
+                .smallest_error = 1e-5}},
+          .defaults = {.seconds = 30}};
 }
 
 }  // namespace vitrel::bench

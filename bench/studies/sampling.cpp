@@ -18,7 +18,6 @@
 #include "core/error.h"
 #include "core/state/check.h"
 #include "core/state/species.h"
-#include "mc/compression.h"
 #include "mc/insertion.h"
 #include "mc/place_correlation.h"
 #include "mc/swelling.h"
@@ -101,20 +100,11 @@ void require_no_overlap(const auto& method) {
 
 // ---- the error of Z ---------------------------------------------------------------------------------
 
-/// Z, and the processor time until its standard error is a thousandth.
-Json sampled_pressure(const std::string& method, const Mean& z, double seconds) {
-  constexpr double wanted = 1e-3;
-  const double times = z.error / (wanted * z.value);
-  return {{"method", method},
-          {"ns", 1e9 * seconds * times * times},
-          {"z", z.value},
-          {"z_error", z.error}};
-}
-
-/// From blocks.
+/// Z from blocks, and the processor time until its standard error is a thousandth.
 template <int Dim>
 Json pressure_row(SamplingMethod<Dim>& method, const Effort& effort) {
   constexpr int blocks = 20;
+  constexpr double wanted = 1e-3;
   mix(method, 0.1 * effort.mixing);
   method.compressibility();
   std::vector<double> values;
@@ -129,7 +119,12 @@ Json pressure_row(SamplingMethod<Dim>& method, const Effort& effort) {
   }
   method.write();
   require_no_overlap(method);
-  return sampled_pressure(method.name, mean_of(values), seconds);
+  const Mean z = mean_of(values);
+  const double times = z.error / (wanted * z.value);
+  return {{"method", method.name},
+          {"ns", 1e9 * seconds * times * times},
+          {"z", z.value},
+          {"z_error", z.error}};
 }
 
 template <int Dim>
@@ -141,58 +136,33 @@ SamplingMethods<Dim> plain_methods(const Configuration<Dim>& start) {
   return methods;
 }
 
-/// At the constant pressure that belongs to Z, by the packing fraction that is found: with it βP/ρ is known at φ, too, as
-/// d ln P/d ln φ = 1/(N Z var(ln φ)) follows from the fluctuations.
-template <int Dim>
-Json constant_pressure_row(Configuration<Dim> state, double z, const Effort& effort) {
-  constexpr int blocks = 20;
-  const double particles = static_cast<double>(state.size()), volume = state.box.volume();
-  PressureSampler<Dim> sampler(state, z * particles / volume, BoxChange::isotropic, 13);
-  const auto sweeps_for = [&](double seconds, auto&& after) {
-    const double begin = processor_seconds();
-    for (int sweeps = 0; sweeps < 10 || processor_seconds() - begin < seconds; ++sweeps) {
-      sampler.sweep();
-      after(sweeps);
-    }
-    return processor_seconds() - begin;
-  };
-  sweeps_for(0.1 * effort.mixing, [&](int sweeps) {
-    if (sweeps % 20 == 19) sampler.tune();
-  });
-  std::vector<double> means;
-  double seconds = 0, sum = 0, square = 0, count = 0;
-  for (int block = 0; block < blocks; ++block) {
-    double of_block = 0, in_block = 0;
-    seconds += sweeps_for(effort.seconds / blocks, [&](int) {
-      const double x = volume / state.box.volume() - 1;
-      of_block += x, sum += x, square += x * x, ++in_block, ++count;
+/// Calls measure(state, add) for a liquid at each of these packing fractions, where add(row) completes a row and keeps
+/// it.
+template <int Dim, class Measure>
+void each_state(const StudyContext& context, const char* shape, double aspect_ratio,
+                std::initializer_list<double> packing_fractions, Json& rows, Measure&& measure) {
+  const Effort effort = effort_of(context);
+  Configuration<Dim> c = dilute_liquid<Dim>(equal_particles(aspect_ratio), effort.particles);
+  for (const double phi : packing_fractions) {
+    if (context.control.stop_requested()) return;
+    c = mixed(swollen(c, phi), effort.mixing, none);
+    measure(c, [&](const Json& row) {
+      rows.push_back(row);
+      rows.back().update({{"shape", shape}, {"packing_fraction", phi}});
     });
-    means.push_back(of_block / in_block);
   }
-  if (!exact_check(state).clean()) throw InvariantError("constant pressure: overlap");
-  const double variance = square / count - sum * sum / count / count;
-  const double slope = 1 / (particles * z * variance);
-  const Mean excess = mean_of(means);  // of the density
-  return sampled_pressure("constant pressure",
-                          {z * (1 - slope * excess.value), z * slope * excess.error}, seconds);
 }
 
 template <int Dim>
 void add_pressures(const StudyContext& context, const char* shape, double aspect_ratio,
                    std::initializer_list<double> packing_fractions, Json& rows) {
   const Effort effort = effort_of(context);
-  Configuration<Dim> c = dilute_liquid<Dim>(equal_particles(aspect_ratio), effort.particles);
-  for (const double phi : packing_fractions) {
-    if (context.control.stop_requested()) return;
-    c = mixed(swollen(c, phi), effort.mixing, none);
-    const Json about = {{"shape", shape}, {"packing_fraction", phi}};
-    for (const auto& method : plain_methods(c)) {
-      rows.push_back(pressure_row(*method, effort));
-      rows.back().update(about);
-    }
-    rows.push_back(constant_pressure_row(c, rows.back()["z"].template get<double>(), effort));
-    rows.back().update(about);
-  }
+  each_state<Dim>(context, shape, aspect_ratio, packing_fractions, rows,
+                  [&](const Configuration<Dim>& c, auto&& add) {
+                    for (const auto& method : plain_methods(c)) add(pressure_row(*method, effort));
+                    ConstantPressure<Dim> compressed(c, rows.back()["z"].template get<double>());
+                    add(pressure_row(compressed, effort));
+                  });
 }
 
 Json measure_pressure(const StudyContext& context) {
@@ -207,8 +177,8 @@ Json measure_pressure(const StudyContext& context) {
 
 // ---- the error of S(q) --------------------------------------------------------------------------------
 
-/// Processor time until the standard error of S(q) is a hundredth, in the first shell and in that of the main peak, without
-/// the time to compute S(q).
+/// Processor time until the standard error of S(q) is a hundredth, in the first shell and in that of the main peak,
+/// without the time to compute S(q).
 template <int Dim>
 Json structure_row(SamplingMethod<Dim>& method, const Effort& effort) {
   constexpr int blocks = 20, samples = 10;
@@ -255,15 +225,10 @@ template <int Dim>
 void add_structures(const StudyContext& context, const char* shape, double aspect_ratio,
                     std::initializer_list<double> packing_fractions, Json& rows) {
   const Effort effort = effort_of(context);
-  Configuration<Dim> c = dilute_liquid<Dim>(equal_particles(aspect_ratio), effort.particles);
-  for (const double phi : packing_fractions) {
-    c = mixed(swollen(c, phi), effort.mixing, none);
-    for (const auto& method : plain_methods(c)) {
-      if (context.control.stop_requested()) return;
-      rows.push_back(structure_row(*method, effort));
-      rows.back().update({{"shape", shape}, {"packing_fraction", phi}});
-    }
-  }
+  each_state<Dim>(context, shape, aspect_ratio, packing_fractions, rows,
+                  [&](const Configuration<Dim>& c, auto&& add) {
+                    for (const auto& method : plain_methods(c)) add(structure_row(*method, effort));
+                  });
 }
 
 Json measure_structure(const StudyContext& context) {

@@ -271,8 +271,8 @@ CollisionCase sizes(Stream& draw, double largest) {
   return close_pair(draw, pair);
 }
 
-/// Crossed at the start with four intersections, so Ψ > 0 despite the overlap. (Ellipses of one area do not contain each
-/// other.)
+/// Crossed at the start with four intersections, so Ψ > 0 despite the overlap. (Ellipses of one area do not contain
+/// each other.)
 CollisionCase crossed_at_start(Stream& draw, double kappa) {
   while (true) {
     CollisionCase pair = thermal_pair<2>(draw, kappa);
@@ -424,8 +424,8 @@ double small_deviation(Stream& draw) {
   return signed_log_uniform(draw, 1e-12, 1e-1);
 }
 
-/// Angular velocities along a principal axis up to a relative deviation between 1e-12 and 0.1, the unstable axis as often
-/// as the others.
+/// Angular velocities along a principal axis up to a relative deviation between 1e-12 and 0.1, the unstable axis as
+/// often as the others.
 EllipsoidCase nearly_uniform(Stream& draw, double kappa) {
   return scalene_pair(draw, kappa, [&](const Ellipsoid& shape) -> Vec3 {
     const auto axis = static_cast<int>(draw.below(3));

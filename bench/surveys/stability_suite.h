@@ -21,8 +21,8 @@ struct CaseClassOf {
 using CaseClass = CaseClassOf<2>;
 
 /// All classes of the stability suite, each of which some method fails on; those that make sense at any aspect ratio κ,
-/// the longest semi-axis over the shortest, at two of them. stability_suite.cpp says of each class what its cases have in
-/// common. In space a quarter of the bodies is prolate and a quarter oblate, the rest scalene.
+/// the longest semi-axis over the shortest, at two of them. stability_suite.cpp says of each class what its cases have
+/// in common. In space a quarter of the bodies is prolate and a quarter oblate, the rest scalene.
 template <int Dim = 2>
 std::vector<CaseClassOf<Dim>> stability_suite();
 

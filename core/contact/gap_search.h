@@ -130,7 +130,8 @@ auto largest_gap(const Pair& pair) -> SupportGapOf<decltype(pair.d)::SizeAtCompi
   return {here.gap, normal_of(n)};
 }
 
-/// Whether two bodies at the distance d are at least `margin` apart; `make_pair` is called if their radii do not say so.
+/// Whether two bodies at the distance d are at least `margin` apart; `make_pair` is called if their radii do not say
+/// so.
 template <class Body>
 bool are_separated(const Body& one, const Body& two, const auto& d, double margin,
                    const auto& make_pair) {

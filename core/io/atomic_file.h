@@ -4,8 +4,8 @@
 
 /// @file
 /// Files and folders that appear under their names when they are complete. Until then they are called
-/// `<path>.<random>.partial`, a name that nothing else had, and lie in the same folder. A process deletes only what it made
-/// itself; what a killed one left stays.
+/// `<path>.<random>.partial`, a name that nothing else had, and lie in the same folder. A process deletes only what it
+/// made itself; what a killed one left stays.
 namespace vitrel {
 
 /// Makes an empty file, or a folder, of such a name, and follows no link. FileError.

@@ -27,8 +27,8 @@ bool is_own_filter(H5Z_filter_t filter) {
   return std::ranges::find(own, filter) != own.end();
 }
 
-/// Whether the chunk at this place is stored. HDF5 1.10 searches the whole index to answer this, so it is asked only about
-/// chunks that seem to be empty.
+/// Whether the chunk at this place is stored. HDF5 1.10 searches the whole index to answer this, so it is asked only
+/// about chunks that seem to be empty.
 bool has_chunk(const Check& check, const Handle& dataset, const Shape& at) {
   unsigned skipped = 0;
   haddr_t address = HADDR_UNDEF;

@@ -193,8 +193,8 @@ std::string parameter_template(const FieldVisitor::Inside& describe);
 std::string parameter_tables(const FieldVisitor::Inside& describe);
 
 /// Classes of Python: a TypedDict of every section, and a dataclass of every table in one, or several if the table has
-/// several forms, named after the table or the form. No class has a `reserved` name. All are based on names that the text
-/// does not define: Setting, Keys (a table as a mapping), Numbers and Array.
+/// several forms, named after the table or the form. No class has a `reserved` name. All are based on names that the
+/// text does not define: Setting, Keys (a table as a mapping), Numbers and Array.
 std::string python_parameters(const FieldVisitor::Inside& describe,
                               const std::vector<std::string>& reserved);
 

@@ -16,8 +16,8 @@
 
 namespace vitrel {
 
-/// The least width of the cells of CellNeighbors. What is more than the largest diameter covers rounding: a position may
-/// be outside of its cell by CellNeighbors::slack.
+/// The least width of the cells of CellNeighbors. What is more than the largest diameter covers rounding: a position
+/// may be outside of its cell by CellNeighbors::slack.
 constexpr double min_cell_width(double max_radius) {
   return 2.2 * max_radius;
 }

@@ -23,7 +23,8 @@ inline double size_of(const Ellipsoid& shape) {
 
 namespace detail {
 
-/// value(i) of the median particle, in single precision: semi-axes are rounded, but particles of size 1 have the size 1.
+/// value(i) of the median particle, in single precision: semi-axes are rounded, but particles of size 1 have the size
+/// 1.
 double lower_median(std::size_t count, const auto& value) {
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) values.push_back(value(i));

@@ -19,8 +19,8 @@
 /// Piecewise Chebyshev approximation of a smooth function on a box by polynomials on panels, which are halved until
 /// they meet a tolerance.
 ///
-/// On a panel, with every variable scaled to −1 … 1, the function is Σ c_ijk T_i(x) T_j(y) T_k(z), i, j, k < Nodes, which
-/// interpolates it at the zeros of T_Nodes. Steps of the construction, level by level:
+/// On a panel, with every variable scaled to −1 … 1, the function is Σ c_ijk T_i(x) T_j(y) T_k(z), i, j, k < Nodes,
+/// which interpolates it at the zeros of T_Nodes. Steps of the construction, level by level:
 ///   1. Interpolate on each panel, and compare with the function at points of the grid where |T_Nodes| = 1 in every
 ///      variable: there the error is largest where the series converges.
 ///   2. If all values are within the tolerance, keep the panel. Otherwise halve it in the variable whose highest

@@ -136,7 +136,7 @@ void each_vector(State& state, Visit&& visit) {
     visit(state.orientation);
 }
 
-/// All of the state, bit by bit.
+/// The whole state with all bits of its numbers.
 template <int Dim>
 py::tuple pickled(const Configuration<Dim>& state) {
   py::list parts;

@@ -48,7 +48,7 @@ class State:
         self._state, self.parameters = state
 
     def __eq__(self, other):
-        """Whether all numbers are the same, bit by bit."""
+        """Whether all numbers are the same to the last bit."""
         return (isinstance(other, State) and type(self._state) is type(other._state)
                 and self._state.__getstate__() == other._state.__getstate__())
 
@@ -122,6 +122,8 @@ class State:
         if path.suffix in ("", ".h5", ".h5md", ".hdf5"):
             self._state.write(os.fspath(path), self.parameters, overwrite)
             return
+        if overwrite:
+            raise _vitrel.UserError("overwrite is for .h5; files in other formats must not exist")
         with start_file(self) as file:
             export_file(file, path, self.dimension)
 

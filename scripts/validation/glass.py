@@ -10,6 +10,7 @@ import tomllib
 
 from figures import COLOURS, pyplot, write_figure
 from validation.common import PARAMS, ROOT, estimate, expect, output_of, settings, summary_of, table
+from validation.comparison import toml
 
 TITLE = "The glass"
 PAGE = ROOT / "docs" / "glass.md"
@@ -26,13 +27,6 @@ MIN_GROWTH = 1e3  # of τ_α relative to the cage, of both liquids
 
 # ---- running ----------------------------------------------------------------------------------------------
 
-def inline(value):
-    """As TOML: a number, or a table of numbers."""
-    if isinstance(value, dict):
-        return "{ " + ", ".join(f"{key} = {entry}" for key, entry in value.items()) + " }"
-    return str(value)
-
-
 def reduced(name, folder):
     """The parameter file of a study with fewer particles, and of its densities only the lowest."""
     kept = 3 if name == AGEING else 6
@@ -41,7 +35,7 @@ def reduced(name, folder):
     lines = []
     for table, keys in tomllib.loads(text)["sweep"].items():
         lines.append(f"[sweep.{table}]")
-        lines += [f'"{key}" = [{", ".join(map(inline, values[:kept]))}]' for key, values in keys.items()]
+        lines += [f'"{key}" = [{", ".join(map(toml, values[:kept]))}]' for key, values in keys.items()]
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{name}.toml"
     file.write_text(head + "\n".join(lines) + "\n", encoding="utf-8")

@@ -101,8 +101,8 @@ TEST(RoughDynamics, ConservesWhatItShould) {
   }
 }
 
-// In a box so wide that nothing meets its images: of spheroids, which spin about their axes, the stored angular velocity
-// is L/I⊥.
+// In a box so wide that nothing meets its images: of spheroids, which spin about their axes, the stored angular
+// velocity is L/I⊥.
 template <int Dim>
 void expect_conserved_angular_momentum(Configuration<Dim> start) {
   start.box = PeriodicBox<Dim>(start.box.lengths() * 40);

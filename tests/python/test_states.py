@@ -125,6 +125,8 @@ def test_the_suffix_of_a_file_is_its_format(state, tmp_path, suffix):
 def test_unknown_formats_are_refused_with_those_there_are(state, tmp_path):
     with pytest.raises(vitrel.UserError, match="'pdb' is no format .* gsd, xyz, csv"):
         state.write(tmp_path / "state.pdb")
+    with pytest.raises(vitrel.UserError, match="overwrite is for .h5"):
+        state.write(tmp_path / "state.gsd", overwrite=True)
     with pytest.raises(vitrel.UserError, match="geo"):
         vitrel.State.from_arrays([[0, 0, 0]], 1, [10, 10, 10]).write(tmp_path / "state.xytheta")
 

@@ -80,7 +80,7 @@ class Literature(unittest.TestCase):
         self.assertAlmostEqual(literature.ellipsoid_fluid((1, 1, 1), 0.3), literature.carnahan_starling(0.3), places=9)
 
     def test_measures_of_a_prolate_spheroid(self):
-        # Of semi-axes 2, 1, 1: closed forms with e² = 3/4.
+        # The semi-axes are 2, 1, 1; the closed forms have e² = 3/4.
         e = math.sqrt(3) / 2
         radius, surface, volume = literature.convex_measures((2, 1, 1))
         self.assertAlmostEqual(radius, (2 + math.atanh(e) / (2 * e)) / 2, places=9)

@@ -149,8 +149,8 @@ requires S::places_particles StageCost cost(const S&, const StageScene& scene) {
 
 /// Growth is that of a fluid up to Z = 20; from there on particles are taken to jam, and Z rises by a factor of e in
 /// 1.5/(γ τ) collisions of a particle. A stretch of `hybrid` grows all lengths by 1 %, or near jamming ln Z by 0.15.
-/// Swelling takes about 3 √N Z sweeps, as measured for 200 to 1000 disks, ellipses, spheres and ellipsoids between Z = 6
-/// and 26. Stages that only place the particles cost nothing.
+/// Swelling takes about 3 √N Z sweeps, as measured for 200 to 1000 disks, ellipses, spheres and ellipsoids between Z =
+/// 6 and 26. Stages that only place the particles cost nothing.
 StageCost expected_cost(const Stage& stage, const StageScene& scene) {
   return std::visit([&](const auto& options) { return cost(options, scene); }, stage);
 }

@@ -33,8 +33,8 @@ struct StageCost {
 /// A line about the system.
 std::string system_plan(const Parameters& parameters);
 
-/// What the stages of a preparation are expected to cost, in their order. `start`: the packing fraction of the state that
-/// the first stage takes, if it takes one.
+/// What the stages of a preparation are expected to cost, in their order. `start`: the packing fraction of the state
+/// that the first stage takes, if it takes one.
 template <int Dim>
 std::vector<StageCost> stage_costs(const Parameters& parameters, const Configuration<Dim>& some,
                                    double start);

@@ -83,8 +83,8 @@ QualityRow gap_row(const StateQuality& quality) {
           fmt::format("exact check: {} overlaps", quality.overlaps)};
 }
 
-/// Disks and spheres are rigid only with as many contacts as they have degrees of freedom, less those of the whole, and one
-/// more against the pressure: D (N' − 1) + 1 between the N' that are held.
+/// Disks and spheres are rigid only with as many contacts as they have degrees of freedom, less those of the whole, and
+/// one more against the pressure: D (N' − 1) + 1 between the N' that are held.
 std::string rigidity_remark(const StateQuality& quality, const JammedBackbone& backbone) {
   const std::size_t held = quality.particles - backbone.rattlers;
   if (quality.rotors > 0 || held == 0) return "";

@@ -55,8 +55,8 @@ struct PackingQuality : StateQuality {
 };
 
 /// @name Of a complete preparation
-/// The state stays as it is. The pressure is that of a short sampling on a copy; without one, or if the last stage was a
-/// growth that ended jammed (min_jammed_pressure), that of the growth. Nothing if the run control asked to stop.
+/// The state stays as it is. The pressure is that of a short sampling on a copy; without one, or if the last stage was
+/// a growth that ended jammed (min_jammed_pressure), that of the growth. Nothing if the run control asked to stop.
 /// @{
 std::optional<Quality> measure_quality(const Preparation<2>& preparation,
                                        const Parameters& parameters, const RunControl& control,
@@ -65,8 +65,8 @@ std::optional<PackingQuality> measure_quality(const Preparation<3>& preparation,
                                               const Parameters& parameters,
                                               const RunControl& control, int threads = 1);
 /// @}
-/// Of a packing and its exact check: without what only a preparation knows, which is the first orientations, pressure,
-/// backbone, decorrelation, collisions and wall time.
+/// The quality of a packing, from it and its exact check, without what only a preparation knows: the first
+/// orientations, pressure, backbone, decorrelation, collisions and wall time.
 PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check);
 
 /// The properties that are known, in words and rounded numbers.
@@ -88,7 +88,8 @@ void write_quality(const std::filesystem::path& file, const auto& quality) {
 
 /// What write_quality wrote. FileError if there is no such file, or if it is not of this state.
 Quality read_quality(const std::filesystem::path& file, const Configuration2& state);
-/// Adds what only a preparation knows, from what write_quality wrote. FileError if that is no report of the same packing.
+/// Adds what only a preparation knows, from what write_quality wrote. FileError if that is no report of the same
+/// packing.
 void add_preparation(PackingQuality& quality, const std::filesystem::path& file);
 
 }  // namespace vitrel

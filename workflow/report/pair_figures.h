@@ -5,8 +5,8 @@
 #include "workflow/report/figure_page.h"
 
 /// @file
-/// Figures of a pair: its course in free flight, as 3.11 and 3.15 of the thesis (woetzel2012) for any pair; the contact of
-/// soft spheres, as 3 to 6 of mueller2013.
+/// Figures of a pair: its course in free flight, as 3.11 and 3.15 of the thesis (woetzel2012) for any pair; the contact
+/// of soft spheres, as 3 to 6 of mueller2013.
 namespace vitrel {
 
 /// d: where ellipse 1 is made the unit circle about the origin, by x̄ = diag(1/a₁, 1/b₁) R(θ₁)ᵀ (x − r₁), the distance

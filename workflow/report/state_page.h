@@ -29,8 +29,8 @@ struct StatePage {
   PageProvenance provenance;       ///< shown if not empty
 };
 
-/// The page as HTML: table of the rows, the particles, g(r) and S(q); in the plane nematic correlation with its scatter,
-/// and both time correlations; in space the bodies can be turned and cut, and there are S₂(r) and lineal path.
+/// The page as HTML: table of the rows, the particles, g(r) and S(q); in the plane nematic correlation with its
+/// scatter, and both time correlations; in space the bodies can be turned and cut, and there are S₂(r) and lineal path.
 std::string state_page(const StatePage& page);
 
 }  // namespace vitrel

@@ -51,8 +51,8 @@ std::optional<std::string> difference(const TrajectoryReader& trajectory,
   return std::nullopt;
 }
 
-/// Frames that a checkpoint counts must be in the trajectory; one that counts none may come before it. `recorded` are the
-/// parameters of the run.
+/// Frames that a checkpoint counts must be in the trajectory; one that counts none may come before it. `recorded` are
+/// the parameters of the run.
 template <int Dim>
 void require_trajectory(const RunCheckpoint<Dim>& run, const Parameters& recorded,
                         const fs::path& output) {

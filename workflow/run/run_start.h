@@ -30,8 +30,8 @@ template <int Dim>
 Checkpoint to_checkpoint(const RunCheckpoint<Dim>& run);
 
 /// The run to continue, also if its file to start from is no longer there; parameters of the request that depend on it
-/// are set. A complete run that becomes longer goes on from the checkpoint before its last. UserError if the request has
-/// parameters that may not change, FileError if the trajectory is not there, or not that of the run.
+/// are set. A complete run that becomes longer goes on from the checkpoint before its last. UserError if the request
+/// has parameters that may not change, FileError if the trajectory is not there, or not that of the run.
 template <int Dim>
 RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint);
 

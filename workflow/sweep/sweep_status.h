@@ -24,9 +24,9 @@ Json sweep_summary(const std::vector<SweepJob>& jobs, const std::filesystem::pat
 std::vector<std::string> sweep_changes(const std::vector<SweepJob>& jobs,
                                        const std::filesystem::path& folder);
 
-/// What a sweep would do, in lines for a person: a row for every job with what its preparation and its run are expected to
-/// cost (preparation_plan.h, run_cost.h), how far it is, and the sum of what is left, with so many jobs at a time. Nothing is
-/// written.
+/// What a sweep would do, in lines for a person: a row for every job with what its preparation and its run are expected
+/// to cost (preparation_plan.h, run_cost.h), how far it is, and the sum of what is left, with so many jobs at a time.
+/// Nothing is written.
 std::string sweep_plan(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder,
                        int parallel);
 

@@ -256,7 +256,8 @@ class Conversion {
   void begin(const ForeignFrame& frame, const Configuration<Dim>& first) {
     first_ = first;
     first_frame_ = frame;
-    // Velocities without angular velocities would give bodies that do not rotate, and energies without that of rotation.
+    // Velocities without angular velocities would give bodies that do not rotate, and energies without that of
+    // rotation.
     has_half_of_velocities_ =
         frame.velocity.empty() != frame.angular_velocity.empty() && rotor_count(first) > 0;
     stores_velocities_ = !frame.velocity.empty() && !has_half_of_velocities_;

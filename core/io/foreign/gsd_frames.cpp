@@ -306,8 +306,8 @@ class GsdFrames final : public ForeignFrames {
     set_images(frame);
   }
 
-  /// Many programs write images into the first frame only, or not at all: those of later frames are then unknown, and not
-  /// the same.
+  /// Many programs write images into the first frame only, or not at all: those of later frames are then unknown, and
+  /// not the same.
   void set_images(ForeignFrame& frame) {
     if (file_.frames() > 1 && !file_.is_in_later_frames("particles/image")) return;
     for (const Vec3& image : vectors("particles/image")) {
