@@ -10,6 +10,7 @@
 #include "app/terminal/text_lines.h"
 #include "core/io/h5md.h"
 #include "core/io/json.h"
+#include "workflow/prepare/preparation_model.h"
 #include "workflow/prepare/preparation_plan.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality.h"
@@ -85,6 +86,7 @@ Json summary(const Preparation<2>& preparation, const Parameters& parameters,
   result["overlaps"] = quality.overlaps;
   result["smallest_gap"] = quality.smallest_gap;
   result["reduced_pressure"] = quality.reduced_pressure.mean;
+  result["model"] = preparation_model(parameters, preparation.configuration);
   result["stages"] = stage_summaries(parameters, preparation.stages);
   result["quality"] = quality_json(quality);
   return result;
@@ -95,6 +97,7 @@ Json summary(const Preparation<3>& preparation, const Parameters& parameters,
   Json result = {{"output", output.string()}, {"quality_report", quality_file(output).string()}};
   result.update(quality_json(quality));
   result["collisions_per_second"] = static_cast<double>(quality.collisions) / quality.wall_seconds;
+  result["model"] = preparation_model(parameters, preparation.configuration);
   result["stages"] = stage_summaries(parameters, preparation.stages);
   return result;
 }
@@ -153,6 +156,7 @@ int prepare_state(const PrepareOptions& options, const PrepareRequest& request, 
   Provenance provenance = current_provenance(options.command_line, effective_parameters(parameters),
                                              parameters.system.seed);
   provenance.wall_seconds = preparation.wall_seconds;
+  provenance.model = preparation_model(parameters, preparation.configuration);
   // The state comes last: where there is one, all is there.
   write_quality(quality_file(options.output), *quality);
   try {

@@ -21,7 +21,7 @@ struct Provenance {
   std::string parent;       ///< file the run started from; empty: none
   std::string started;      ///< UTC, "2024-05-01T12:00:00Z"
   double wall_seconds = 0;  ///< time spent on the file so far, all continuations together
-  std::string model;        ///< what was chosen to simulate the particles, and why; empty of states
+  std::string model;        ///< what was chosen to simulate the particles, and why; may be empty
 };
 
 std::string program_version();

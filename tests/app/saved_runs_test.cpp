@@ -50,6 +50,41 @@ void write_run(const Folder& folder) {
             0);
 }
 
+// What was chosen to simulate the particles stands in the plan, in the summary, in the file and on the page.
+TEST(SavedRuns, StatesAndRunsSayHowTheyWereMade) {
+  const Folder folder("model");
+  folder.write("p.toml",
+               tiny_system +
+                   "[[species]]\naspect_ratio = 2\n"
+                   "[[prepare.stage]]\nmethod = \"insert\"\n"
+                   "[[prepare.stage]]\nmethod = \"hybrid\"\n"
+                   "[[prepare.stage]]\nmethod = \"sample\"\nmoves = \"local\"\nsweeps = 9\n");
+  const std::string why = " of ellipses, since some particle is not round";
+  const std::string preparation =
+      "hybrid: growing ellipses, since semi-axes change with time, and "
+      "event chains" +
+      why + "; sample: local moves" + why;
+  const std::string dynamics = "rotating ellipses, since some particle is not round";
+  const auto expect_model = [&](std::vector<std::string> command, const std::string& file,
+                                const std::string& model) {
+    command.insert(command.end(), {"-o", file});
+    std::vector<std::string> plan = command;
+    plan.push_back("--dry-run");
+    EXPECT_THAT(run(folder.path(), plan).output, HasSubstr("prepares by  " + preparation + "\n"));
+    command.insert(command.end(), {"--json", "-q"});
+    const Outcome made = run(folder.path(), command);
+    ASSERT_EQ(made.code, 0) << made.errors;
+    EXPECT_EQ(nlohmann::json::parse(made.output)["model"], model);
+    ASSERT_EQ(run(folder.path(), {"report", file, "-o", "page.html", "-q"}).code, 0);
+    EXPECT_THAT(content(folder / "page.html"), HasSubstr(model));
+  };
+  expect_model({"prepare", "p.toml"}, "state.h5", preparation);
+  expect_model({"run", "p.toml"}, "run.h5", dynamics + "; prepared by " + preparation);
+  const Outcome from =
+      run(folder.path(), {"run", "p.toml", "--from", "state.h5", "-o", "from.h5", "--json", "-q"});
+  EXPECT_EQ(nlohmann::json::parse(from.output)["model"], dynamics);
+}
+
 TEST(SavedRuns, NoCommandOverwritesWhatItReads) {
   const Folder folder("overwrites_input");
   write_run(folder);

@@ -12,6 +12,7 @@
 #include "core/state/typical_scales.h"
 #include "edmd/hard_fluid.h"
 #include "workflow/configuration/start_state.h"
+#include "workflow/prepare/preparation_model.h"
 #include "workflow/stages/hybrid_options.h"
 
 namespace vitrel {
@@ -219,8 +220,10 @@ std::string preparation_plan(const Parameters& p, const Configuration<Dim>& some
                         cost_text(costs[k]));
     all.add(costs[k]);
   }
-  return text +
-         fmt::format("prepares in  {}{:.2g} s\n", all.is_foreseen ? "" : "more than ", all.seconds);
+  text +=
+      fmt::format("prepares in  {}{:.2g} s\n", all.is_foreseen ? "" : "more than ", all.seconds);
+  const std::string model = preparation_model(p, some);
+  return model.empty() ? text : text + fmt::format("prepares by  {}\n", model);
 }
 
 std::string preparation_plan(PrepareRequest request) {

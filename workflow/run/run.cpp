@@ -11,6 +11,7 @@
 #include "core/state/typical_scales.h"
 #include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/soft_particles.h"
+#include "workflow/prepare/preparation_model.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run_cost.h"
@@ -133,7 +134,8 @@ class RunJob {
     const std::string parent = start ? start->file.value_or("") : "";
     Provenance provenance = current_provenance(request_.command_line, stored_.parameters,
                                                request_.parameters.system.seed, parent);
-    provenance.model = model;
+    const std::string preparation = preparation_model(request_.parameters, state.configuration);
+    provenance.model = preparation.empty() ? model : model + "; prepared by " + preparation;
     return TrajectoryWriter::create(request_.output, state.configuration, provenance,
                                     {.velocities = request_.parameters.output.velocities,
                                      .close_pairs = is_soft(),
