@@ -81,7 +81,7 @@ using SurveyRequest = SurveyRequestOf<2>;
 using FailingCase = FailingCaseOf<2>;
 using Survey = SurveyOf<2>;
 
-/// Asks every method about the same pairs, compares the answers with the guaranteed reference and times
+/// Asks every method about the same pairs, compares the answers with the reference and times
 /// the methods, the reference's time apart. Of a method's failures the first of the gravest kind is
 /// kept: late or missed, then early or false, these if the pair is degenerate, and last no answer,
 /// unless the method does not apply.
