@@ -164,8 +164,10 @@ Part one_pair(const std::string& name, const std::string& about,
           .about = about,
           .measure = measure,
           .cases = {},
-          .others = {
-              {"tolerance"}, {"time", "contact at"}, {"error", "off by", Shown::error}, {"steps"}}};
+          .others = {{"tolerance"},
+                     {"time", "contact at", Shown::all_digits},
+                     {"error", "off by", Shown::error},
+                     {"steps"}}};
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ const Part& part_named(const Study& study, const std::string& name) {
 /// Longer tables are only on the page and among the numbers.
 constexpr std::size_t most_rows = 100;
 
-/// The sentences and tables of all parts; with the charts that scripts/validate saves in the folder of the study.
+/// The sentences and tables of all parts. With the charts that scripts/validate saves in the folder of the study, and
+/// without the table of all numbers (the last) of answers that are right or wrong, which charts and other tables show.
 std::string parts_text(const Study& study, const Json& numbers, bool has_charts) {
   std::string text;
   for (const Json& of : numbers["parts"]) {
@@ -79,7 +80,9 @@ std::string parts_text(const Study& study, const Json& numbers, bool has_charts)
       for (const Json& chart : charts_of(part, of["rows"]))
         text += fmt::format("\n![{}]({}/{}-{}.svg)\n", chart["heading"].get<std::string>(),
                             study.name, part.name, ++number);
-    for (const StudyTable& table : tables_of(part, of["rows"]))
+    std::vector<StudyTable> tables = tables_of(part, of["rows"]);
+    if (has_charts && !part.verdicts.empty()) tables.pop_back();
+    for (const StudyTable& table : tables)
       if (table.rows.size() <= most_rows)
         text += fmt::format("\n{}:\n\n{}", table.heading, markdown(table));
   }

@@ -96,7 +96,7 @@ struct Motion : SamplingMethod<Dim> {
     engine->load(this->state);
   }
   Configuration<Dim>& started() {
-    draw_velocities(this->state, 1, Purpose::velocities, 0, Temperature::total);
+    draw_velocities(this->state, 1, Purpose::velocities, 0, Temperature::relative);
     return this->state;
   }
   void sweep() override {

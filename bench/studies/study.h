@@ -15,7 +15,7 @@
 namespace vitrel::bench {
 
 /// How the numbers of a column are shown.
-enum class Shown { text, count, number, time, error, share };
+enum class Shown { text, count, number, all_digits, time, error, share };
 
 /// A key of the rows. Times are in ns. The key of the method is "method"; rows may name their curve in the chart as
 /// "curve".

@@ -28,6 +28,8 @@ std::string text_at(const Json& row, const Column& column) {
   switch (column.shown) {
     case Shown::count:
       return value == 0 ? "·" : fmt::format("{:.0f}", value);
+    case Shown::all_digits:
+      return fmt::format("{:.14g}", value);
     case Shown::time:
       return time_text(value);
     case Shown::error:
