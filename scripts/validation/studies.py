@@ -16,7 +16,7 @@ INPUTS = {"overlap": ["bench", "core"], "contact-time": ["bench", "core"], "whol
           "peers": ["bench", "core"], "dense": ["bench", "core", "mc", "edmd", "workflow"],
           "brownian-step": ["bench", "core", "edmd", "analysis"], "analysis": ["bench", "analysis", "core"], "thesis": ["bench", "core", "edmd"]}
 FOLDER = ROOT / "docs" / "studies"
-OPTIONS = {"contact-time": ["--pairs", "10000", "--seconds", "20"],
+OPTIONS = {"contact-time": ["--pairs", "10000", "--seconds", "20"], "sampling": ["--seconds", "5"],
            "thesis": ["--seconds", "2"]}
 
 ERROR_OF_CARNAHAN_STARLING = 0.004  # in a dense liquid
