@@ -8,6 +8,7 @@ import platform
 import re
 import statistics
 import subprocess
+import sys
 import tempfile
 import typing
 
@@ -39,6 +40,22 @@ def expect_chart(page):
     """A page of the program that shows results."""
     text = page.read_text(encoding="utf-8")
     expect("<svg" in text or "<canvas" in text or "uPlot" in text, f"{page.name} has no chart")
+
+
+def save_charts(page, folder, names=None):
+    """Charts of a page as SVG, drawn by the page; all, or those of these names."""
+    sys.path.insert(0, str(ROOT / "tests/browser"))
+    from browser import Browser  # needed only here
+
+    folder.mkdir(parents=True, exist_ok=True)
+    with Browser(os.environ.get("CHROMIUM", "chromium")) as browser:
+        browser.resize(900, 700, "light")
+        browser.open(f"file://{page}")
+        charts = [(name, text) for name, text in browser.saved("SVG") if names is None or name in names]
+    for name, text in charts:
+        folder.joinpath(name).write_text(text, encoding="utf-8")
+    missing = set(names or []) - {name for name, _ in charts}
+    expect(not missing, f"{page.name} has no chart {', '.join(sorted(missing))}")
 
 
 def properties_of_test(program, test, **variables):

@@ -8,12 +8,12 @@ import tempfile
 import textwrap
 import tomllib
 
-from figures import COLOURS, pyplot, write_figure
-from validation.common import PARAMS, ROOT, estimate, expect, output_of, settings, summary_of, table
+from validation.common import PARAMS, ROOT, estimate, expect, output_of, save_charts, settings, summary_of, table
 from validation.comparison import toml
 
 TITLE = "The glass"
 PAGE = ROOT / "docs" / "glass.md"
+FIGURES = ROOT / "docs" / "figures" / "glass"
 DATA = ROOT / "docs" / "data" / "glass"  # of finished jobs the results; the rest stays on the machine that runs them
 QUICK = ROOT / "out" / "glass"
 
@@ -63,7 +63,7 @@ class Study:
 
     def vitrel(self, *words):
         """In the folder of the project, so that what is kept names no path outside of it."""
-        inside = [word.relative_to(ROOT) if isinstance(word, pathlib.Path) else word for word in words]
+        inside = [word.relative_to(ROOT) if isinstance(word, pathlib.Path) and word.is_relative_to(ROOT) else word for word in words]
         return output_of([self.build / "app/vitrel", *map(str, inside)], cwd=ROOT)
 
     def analyze(self):
@@ -129,156 +129,44 @@ class Job:
                 return None if math.isnan(times["tau"][k]) else (times["tau"][k], times["tau_error"][k])
         return None
 
-    def curve(self, name, on_the_fly=None):
-        """A column of a table over time; at shorter times, if it is named, one of the correlations on the fly."""
-        found, (source, column) = [], name
-        sampled = self.tables[source]
-        if on_the_fly:
-            early = self.tables["on_the_fly_all"]
-            first = sampled["time"][0]
-            found += [(t, y) for t, y in zip(early["time"], early[on_the_fly]) if t < first]
-        found += zip(sampled["time"], sampled[column])
-        return [(t, y) for t, y in found if t > 0 and not math.isnan(y)]
+    def ageing(self, column):
+        """What is seen after a waiting time, over time."""
+        found = self.tables["ageing"]
+        return [(t, y) for t, y in zip(found["time"], found[column]) if t > 0 and not math.isnan(y)]
 
 
 # ---- figures ----------------------------------------------------------------------------------------------
 
-TIMES = {"alpha": ("τ_α", "o"), "cage": ("τ_α relative to the cage", "s"), "2": ("τ₂", "D")}
+TIMES = {"alpha": "τ_α", "cage": "τ_α relative to the cage", "2": "τ₂"}
+CHARTS = {"glass_polydisperse": ["relaxation_times", "mean_squared_displacement", "mean_squared_rotation", "self_intermediate_scattering",
+                                 "orientational_correlation", "non_gaussian_parameter", "four_point_susceptibility"],
+          "glass_polydisperse_disks": ["relaxation_times"],
+          "glass_fast": ["mean_squared_rotation_after_waiting", "orientational_correlation_after_waiting"]}
 
 
-def shape_of_law(fit, phi):
-    """ln τ but for a constant."""
-    if fit["law"] == "power law":
-        return -fit["exponent"] * math.log(fit["phi_c"] - phi)
-    return fit["exponent"] * phi / (fit["phi_c"] - phi)
-
-
-def draw_law(axes, study, fit, which, colour):
-    points = [(phi, study.mean_time(phi, which)) for phi in study.densities()]
-    window = [(phi, time) for phi, time in points if time and fit["window"][0] <= phi + 1e-6 and phi <= fit["window"][1] + 1e-6]
-    constant = sum(math.log(time) - shape_of_law(fit, phi) for phi, time in window) / len(window)
-    low, high = window[0][0], window[-1][0]
-    grid = [low + (high - low) * k / 100 for k in range(101)]
-    axes.plot([phi for phi in grid if phi < fit["phi_c"]],
-              [math.exp(constant + shape_of_law(fit, phi)) for phi in grid if phi < fit["phi_c"]],
-              color=colour, linewidth=0.9, linestyle="-" if fit["law"] == "power law" else ":")
-
-
-def times_figure(studies, folder):
-    figure, all_axes = pyplot().subplots(1, 2, figsize=(10, 4.4), sharey=True, layout="constrained")
-    for axes, study in zip(all_axes, studies):
-        for k, (which, (name, marker)) in enumerate(TIMES.items()):
-            known = [(job, job.time(which)) for job in study.jobs if job.time(which)]
-            for filled in (True, False):
-                part = [(job.phi, time) for job, time in known if (job.verdict["verdict"] == "equilibrated") == filled]
-                axes.errorbar([phi for phi, _ in part], [t for _, (t, _) in part], yerr=[e for _, (_, e) in part],
-                              color=COLOURS[k], marker=marker, linestyle="none", markersize=5,
-                              markerfacecolor=COLOURS[k] if filled else "white", label=name if filled and part else None)
-        for fit in study.fits:
-            which = {"translation, tau_alpha": "cage", "rotation, tau_2": "2"}.get(fit["kind"])
-            if which and fit["phi_c"] is not None:
-                draw_law(axes, study, fit, which, COLOURS[list(TIMES).index(which)])
-        axes.set(title=LIQUIDS[study.name], xlabel="packing fraction φ", yscale="log")
-        axes.title.set_fontsize("medium")
-        axes.grid(alpha=0.25)
-    all_axes[0].set_ylabel("relaxation time")
-    all_axes[0].legend(frameon=False, fontsize="small", loc="upper left")
-    write_figure(figure, folder / "glass_times.svg")
-
-
-def family(axes, study, curve, seed=1):
-    """One curve per density, from blue to red."""
-    colours = pyplot().get_cmap("coolwarm")
-    jobs = [job for job in study.jobs if job.seed == seed]
-    for k, job in enumerate(jobs):
-        points = job.curve(*curve)
-        axes.plot([t for t, _ in points], [y for _, y in points], linewidth=1.1,
-                  color=colours(k / max(1, len(jobs) - 1)), label=f"{job.phi:g}")
-    axes.set(xscale="log", xlabel="t")
-    axes.grid(alpha=0.25)
-
-
-def motion_figure(study, folder):
-    figure, (left, right) = pyplot().subplots(1, 2, figsize=(10, 4.4), layout="constrained")
-    family(left, study, (("displacements_all", "msd"), "msd"))
-    family(right, study, (("displacements_all", "msr"), "msr"))
-    left.set(yscale="log", ylabel="mean squared displacement ⟨Δr²⟩")
-    right.set(yscale="log", ylabel="mean squared rotation ⟨Δθ²⟩")
-    left.legend(title="φ", frameon=False, fontsize="x-small", ncols=2)
-    write_figure(figure, folder / "glass_motion.svg")
-
-
-def relaxation_figure(study, folder):
-    figure, axes = pyplot().subplots(2, 2, figsize=(10, 7), sharex=True, layout="constrained")
-    for place, (curve, label) in zip(axes.flat, [
-            ((("self_scattering_all", "fs_1"),), "F_s(q, t)"), ((("orientation_all", "l_2"), "l_2"), "L₂(t)"),
-            ((("displacements_all", "non_gaussian"),), "α₂(t)"), ((("susceptibility", "chi_4"),), "χ₄(t)")]):
-        family(place, study, curve)
-        place.set_ylabel(label)
-    axes[0, 0].legend(title="φ", frameon=False, fontsize="x-small", ncols=2)
-    write_figure(figure, folder / "glass_relaxation.svg")
-
-
-def ageing_figure(study, folder):
-    chosen = [phi for phi in (0.60, 0.70, 0.82) if phi in study.densities()] or study.densities()[:3]
-    figure, axes = pyplot().subplots(2, len(chosen), figsize=(4 * len(chosen), 6.4), sharex=True, sharey="row",
-                                     layout="constrained", squeeze=False)
-    colours = pyplot().get_cmap("viridis")
-    for column, phi in enumerate(chosen):
-        job = next(job for job in study.jobs if job.phi == phi)
-        waits = job.tables["waiting_times"]
-        for k, waited in enumerate(waits["waiting_time"], start=1):
-            for row, name in enumerate((f"msr_{k}", f"l_{k}")):
-                points = job.curve(("ageing", name))
-                axes[row, column].plot([t for t, _ in points], [y for _, y in points], linewidth=1.1,
-                                       color=colours(0.9 * (k - 1) / max(1, len(waits["index"]) - 1)), label=f"{waited:g}")
-        axes[0, column].set(title=f"φ = {phi:g}", xscale="log", yscale="log")
-        axes[1, column].set_xlabel("t")
-        for row in range(2):
-            axes[row, column].grid(alpha=0.25)
-    axes[0, 0].set_ylabel("mean squared rotation ⟨Δθ²⟩")
-    axes[1, 0].set_ylabel("L₂(t)")
-    axes[0, 0].legend(title="waiting time", frameon=False, fontsize="x-small")
-    write_figure(figure, folder / "glass_ageing.svg")
+def save_study_charts(study, folder):
+    """Those of the report page of the sweep that the text shows."""
+    with tempfile.TemporaryDirectory() as scratch:
+        report = pathlib.Path(scratch, "page.html")
+        study.vitrel("report", study.folder, "-o", report, "-q")
+        save_charts(report, folder, [f"{name}.svg" for name in CHARTS[study.name]])
 
 
 SLOW = "prepare.stage.1.growth_rate=0.001"
 
 
-def domains_figure(build, study, folder):
-    """Every particle of states as they are made, by the angle of its axis; the last one is made slowly. Its length of
-    orientational correlations.
+def save_domains(build, study, folder):
+    """Pictures of states as they are made, coloured by orientation; the last one is made slowly. Its length of orientational
+    correlations.
     """
     densities = [phi for phi in (0.60, 0.72, 0.82) if phi in study.densities()] or study.densities()[:3]
-    chosen = [(phi, []) for phi in densities] + [(densities[len(densities) // 2], [SLOW])]
-    plots = pyplot()
-    figure, all_axes = plots.subplots(1, len(chosen), figsize=(3.6 * len(chosen), 3.9), layout="constrained", squeeze=False)
-    for axes, (phi, changes) in zip(all_axes[0], chosen):
+    for name, phi, changes in [*((k, phi, []) for k, phi in enumerate(densities, start=1)), ("slow", densities[len(densities) // 2], [SLOW])]:
         with tempfile.TemporaryDirectory() as scratch:
             state = pathlib.Path(scratch, "state.h5")
             summary = summary_of(build, "prepare", study.parameters,
                                  *settings([f"system.packing_fraction={phi}", "prepare.quality_sweeps=1", *changes]), "-o", state)
-            draw_ellipses(axes, state)
-        axes.set_title(f"φ = {phi:g}" + ", made slowly" * bool(changes), fontsize="medium")
-    figure.savefig(folder / "glass_domains.png", dpi=130, metadata={"Software": None})
-    plots.close(figure)
+            study.vitrel("picture", state, "--width", "440", "-o", folder / f"domains-{name}.png", "-q")
     return summary["quality"]["nematic_correlation"]["length"]["value"]
-
-
-def draw_ellipses(axes, state):
-    import h5py
-    import numpy
-    from matplotlib import collections
-
-    with h5py.File(state) as file:
-        particles = file["particles/all"]
-        position, angle = particles["position/value"][-1], particles["angle/value"][-1]
-        semi_axes, box = particles["semiaxes"][...], numpy.diagonal(particles["box/edges/value"][-1])
-    ellipses = collections.EllipseCollection(2 * semi_axes[:, 0], 2 * semi_axes[:, 1], numpy.degrees(angle), units="xy",
-                                             offsets=position[:, :2], transOffset=axes.transData, array=angle % numpy.pi,
-                                             cmap="hsv", clim=(0, numpy.pi), linewidths=0)
-    axes.add_collection(ellipses)
-    axes.set(xlim=(-box[0] / 2, box[0] / 2), ylim=(-box[1] / 2, box[1] / 2), aspect="equal", xticks=[], yticks=[])
 
 
 # ---- text -------------------------------------------------------------------------------------------------
@@ -392,7 +280,7 @@ def answer(study):
 
 def growth_text(study):
     """By how much each time grows."""
-    grown = [(TIMES[which][0], study.growth(which)) for which in ("2", "cage", "alpha") if study.growth(which)]
+    grown = [(TIMES[which], study.growth(which)) for which in ("2", "cage", "alpha") if study.growth(which)]
     return ", ".join(f"{name} {float(f'{factor:.2g}'):g}-fold (up to {highest:g})" for name, (factor, highest) in grown)
 
 
@@ -402,8 +290,8 @@ def ageing_rows(study):
         waits = job.tables["waiting_times"]
         for k, waited in enumerate(waits["waiting_time"], start=1):
             rows.append([f"{job.phi:g}", job.seed, f"{waited:g}", number(waits["nematic_length"][k - 1]),
-                         *(fallen(job.curve(("ageing", f"{name}_{k}"))) for name in ("fs", "l")),
-                         number(job.curve(("ageing", f"msd_{k}"))[-1][1]), number(job.curve(("ageing", f"msr_{k}"))[-1][1])])
+                         *(fallen(job.ageing(f"{name}_{k}")) for name in ("fs", "l")),
+                         number(job.ageing(f"msd_{k}")[-1][1]), number(job.ageing(f"msr_{k}")[-1][1])])
     return rows
 
 
@@ -438,7 +326,7 @@ def stopping_density(jobs, curve, time):
     """Of one seed: the density at which a correlation falls to 1/e just then, by linear interpolation; a bound, as
     a text, where it does so at all of them or at none.
     """
-    values = [(job.phi, value_at(job.curve(curve), time)) for job in jobs]
+    values = [(job.phi, value_at(job.ageing(curve), time)) for job in jobs]
     moving = [k for k, (_, value) in enumerate(values) if value <= 1 / math.e]
     if not moving:
         return f"≤ {values[0][0]:g}"
@@ -462,7 +350,7 @@ def stop_rows(study):
     """The density of each waiting time at which a correlation falls to 1/e in the time that follows the last one; that time."""
     waits = study.jobs[0].tables["waiting_times"]["waiting_time"]
     window = study.jobs[0].verdict["duration"] - waits[-1]
-    return window, [[f"{waited:g}", *(stop_text(study, ("ageing", f"{name}_{k}"), window) for name in ("l", "fs"))]
+    return window, [[f"{waited:g}", *(stop_text(study, f"{name}_{k}", window) for name in ("l", "fs"))]
                     for k, waited in enumerate(waits, start=1)]
 
 
@@ -500,11 +388,9 @@ def page(liquids, ageing, slow):
 
 def draw(build, liquids, ageing, folder):
     """All figures; the length of orientational correlations in a state that is made slowly."""
-    times_figure(liquids, folder)
-    motion_figure(liquids[0], folder)
-    relaxation_figure(liquids[0], folder)
-    ageing_figure(ageing, folder)
-    return domains_figure(build, ageing, folder)
+    for study in (*liquids, ageing):
+        save_study_charts(study, folder / study.name.removeprefix("glass_"))
+    return save_domains(build, ageing, folder / ageing.name.removeprefix("glass_"))
 
 
 def studied(build, is_quick):
@@ -520,7 +406,7 @@ def measure(build):
     for study in liquids:
         growth, densest = study.growth("cage")
         expect(growth >= MIN_GROWTH, f"{study.name}: times grow only {growth:.3g}-fold up to {densest}")
-    slow = draw(build, liquids, ageing, ROOT / "docs" / "figures")
+    slow = draw(build, liquids, ageing, FIGURES)
     PAGE.write_text(page(liquids, ageing, slow), encoding="utf-8")
     return """This command writes [The glass](glass.md), from the results in docs/data/glass and from the jobs that are missing
 there, which it runs. `--status` tells which are; `--quick` goes through the whole chain with fewer particles and densities
@@ -529,7 +415,7 @@ and writes to out/glass."""
 
 def quick(build):
     *liquids, ageing = studied(build, is_quick=True)
-    slow = draw(build, liquids, ageing, QUICK)
+    slow = draw(build, liquids, ageing, QUICK / "figures" / "glass")
     (QUICK / "glass.md").write_text(page(liquids, ageing, slow), encoding="utf-8")
     return f"{QUICK.relative_to(ROOT)}/glass.md, in {sum(study.seconds() for study in (*liquids, ageing)):.0f} s of runs"
 

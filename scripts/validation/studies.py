@@ -2,12 +2,10 @@
 
 import json
 import math
-import os
 import pathlib
-import sys
 import tempfile
 
-from validation.common import ROOT, expect, output_of
+from validation.common import ROOT, expect, output_of, save_charts
 from validation.literature import carnahan_starling
 
 TITLE = "Studies"
@@ -169,19 +167,6 @@ CHECKS = {"overlap": check_overlap, "contact-time": check_contact_time, "peers":
 PARTS = tuple(CHECKS)
 
 
-def save_figures(page, folder):
-    """Every chart of the page as SVG, drawn by the page."""
-    sys.path.insert(0, str(ROOT / "tests/browser"))
-    from browser import Browser  # needed only here
-
-    folder.mkdir(parents=True, exist_ok=True)
-    with Browser(os.environ.get("CHROMIUM", "chromium")) as browser:
-        browser.resize(900, 700, "light")
-        browser.open(f"file://{page}")
-        for name, text in browser.saved("SVG"):
-            folder.joinpath(name).write_text(text, encoding="utf-8")
-
-
 def write(build, name):
     """Measures a study and writes its page, if it meets what is required; the first lines."""
     with tempfile.TemporaryDirectory() as folder:
@@ -192,7 +177,7 @@ def write(build, name):
         FOLDER.mkdir(exist_ok=True)
         text = made.with_suffix(".md").read_text(encoding="utf-8")
         FOLDER.joinpath(f"{name}.md").write_text(text, encoding="utf-8")
-        save_figures(made.with_suffix(".html"), FOLDER / name)
+        save_charts(made.with_suffix(".html"), FOLDER / name)
     return f"- [{data['question']}](studies/{name}.md)"
 
 
