@@ -409,10 +409,11 @@ class CommandLine : public ProgramCommandLine {
 
   // For the help only: the words after it are passed on unparsed.
   void add_bench() {
-    add_command(app_, "bench",
-                "Measure the numerical methods against an independent reference: runs vitrel-bench, "
-                "which is built beside this program.",
-                {})
+    add_command(
+        app_, "bench",
+        "Measure the numerical methods against an independent reference: runs vitrel-bench, "
+        "which is built beside this program.",
+        {})
         .footer("vitrel bench --help lists what it measures.");
   }
 
