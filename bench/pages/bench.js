@@ -56,44 +56,11 @@ function addPart({ name, about, answer, charts, tables }) {
   if (all) section.append(tables.length > 1 ? details(all.heading, table(all)) : table(all));
 }
 
-// Pictures of failing pairs
+// Failing pairs
 
-function svgElement(tag, attributes, ...children) {
-  const node = document.createElementNS('http://www.w3.org/2000/svg', tag);
-  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-  node.append(...children);
-  return node;
-}
-
-const ellipse = ({ x, y, a, b, angle }, style) => svgElement('ellipse',
-  { rx: a, ry: b, transform: `translate(${x} ${y}) rotate(${180 / Math.PI * angle})`, style });
-const outlined = (colour) => `fill: var(${colour}); fill-opacity: .16; stroke: var(${colour}); stroke-width: .013`;
-
-function arrow({ x, y }, [vx, vy]) {
-  const speed = Math.hypot(vx, vy);
-  if (speed === 0) return [];
-  const degrees = 180 / Math.PI * Math.atan2(vy, vx);
-  return [svgElement('path', { d: 'M0 0H.27M.33 0L.26 .04V-.04Z', transform: `translate(${x} ${y}) rotate(${degrees})`,
-                               style: 'fill: var(--ink); stroke: var(--ink); stroke-width: .013' })];
-}
-
-function picture({ title, time, ellipses: [one, two], overlap }, velocity, id) {
-  const upwards = svgElement('g', { transform: 'scale(1 -1)' }, ellipse(one, outlined('--one')), ellipse(two, outlined('--two')));
-  if (overlap)
-    upwards.append(svgElement('clipPath', { id }, ellipse(one, '')),
-      svgElement('g', { 'clip-path': `url(#${id})` }, ellipse(two, 'fill: var(--overlap); fill-opacity: .75')));
-  if (time === 0) upwards.append(...arrow(two, velocity));
-  const figure = element('figure'), caption = element('figcaption', {}, title);
-  caption.append(element('span', {}, `t = ${Number(time.toPrecision(9))}`));
-  figure.append(svgElement('svg', { viewBox: '-1 -1 2 2', role: 'img', 'aria-label': title }, upwards), caption);
-  return figure;
-}
-
-function failingPair(failure) {
-  const pictures = element('div', { class: 'pictures' });
-  pictures.append(...failure.pictures.map((shown, k) => picture(shown, failure.relative_velocity, `${failure.method}_${k}`)));
-  return [element('h3', {}, failure.method), element('p', { class: 'note' },
-    `${failure.method} ${failure.caption} (class ${failure.class}, κ = ${failure.aspect_ratio}, pair ${failure.index}).`), pictures];
+function failingPair({ method, caption, class: name, aspect_ratio: kappa, index, command }) {
+  const text = `${method} ${caption} (class ${name}, κ = ${kappa}, pair ${index}).`;
+  return [element('p', {}, text), ...(command ? [element('pre', { tabindex: '0' }, command)] : [])];
 }
 
 // The page

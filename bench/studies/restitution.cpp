@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/baselines/plain_contact.h"
 #include "bench/studies/soft_contacts.h"
 #include "bench/surveys/best_seconds.h"
 #include "core/io/json.h"
@@ -28,12 +27,11 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 struct Effort {
-  int integrations = 1000;  // compared with the plain one
   int random_points = 200'000;
   int cells = 60;  // of the lattice of points, along each axis
   int timed = 200'000;
 };
-const Effort quick{20, 500, 8, 2000};
+const Effort quick{500, 8, 2000};
 
 // --- the domain ------------------------------------------------------------------------------------------
 
@@ -165,30 +163,8 @@ Errors largest(const std::vector<Errors>& all) {
 }
 
 /// The integration, beside the plain equations in extended precision where these are good for it.
-template <class Force>
-Json integration_row(const Effort& effort) {
-  std::vector<ScaledImpact> impacts =
-      random_impacts<Force>(domain_of_the_source<Force>(), effort.integrations);
-  std::erase_if(impacts, [](const ScaledImpact& impact) { return impact.damping > 20; });
-  std::vector<Errors> errors(impacts.size());
-  in_parallel(impacts.size(), all_cores, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      errors[k] =
-          errors_of(integrate_contact<Force>(impacts[k]), PlainContact<Force>(impacts[k])());
-  });
-  Json row = {{"method", "integration"}, {"force", Force::name}, {"points", impacts.size()}};
-  row.update(errors_json(largest(errors)));
-  return row;
-}
-
 Effort effort_of(const StudyContext& context) {
   return context.options.quick ? quick : Effort{};
-}
-
-Json measure_integration(const StudyContext& context) {
-  const Effort effort = effort_of(context);
-  return Json::array(
-      {integration_row<LinearDashpot>(effort), integration_row<Viscoelastic>(effort)});
 }
 
 template <class Find>
@@ -277,7 +253,7 @@ Json measure_tables(const StudyContext& context) {
 
 }  // namespace
 
-std::vector<Part> restitution_parts() {
+Part restitution_part() {
   const Column error = {"error", "largest error", Shown::error};
   const std::vector<Column> coefficients = {{"distance", "ε_r", Shown::error},
                                             {"angle", "ε_φ", Shown::error},
@@ -288,26 +264,17 @@ std::vector<Part> restitution_parts() {
        {Column{"megabytes", "MB"}, Column{"seconds", "build", Shown::number, "s"}, Column{"points"},
         Column{"without_value", "without a value", Shown::count}})
     of_tables.push_back(column);
-  std::vector<Column> of_integration = {error};
-  of_integration.insert(of_integration.end(), coefficients.begin(), coefficients.end());
-  return {{.name = "integration",
-           .about = "The integrated coefficients of random impacts of the source (Müller and "
-                    "Pöschel 2013) with c_dis ≤ 20, beside the plain equations of motion in "
-                    "extended precision and by another method (baselines/plain_contact.h). Errors "
-                    "are relative, of ε_r absolute.",
-           .measure = measure_integration,
-           .cases = {{"force"}},
-           .others = of_integration},
-          {.name = "restitution",
-           .about = "Tables of coefficients (edmd/soft/restitution_table.h) beside the "
-                    "integration, at random points and at the centres of a grid of cells. The "
-                    "domain of the source is that of its tables 1 and 2, for any two radii. Times "
-                    "include the logarithms of a random impact and cache misses.",
-           .measure = measure_tables,
-           .cases = {{"force"}, {"domain"}, {"tolerance", "tolerance", Shown::error}},
-           .cost = {"ns_per_impact", "time per impact", Shown::time},
-           .error = error,
-           .others = of_tables}};
+  return {.name = "restitution",
+          .about =
+              "Tables of coefficients (edmd/soft/restitution_table.h) beside the "
+              "integration, at random points and at the centres of a grid of cells. The "
+              "domain of the source is that of its tables 1 and 2, for any two radii. Times "
+              "include the logarithms of a random impact and cache misses.",
+          .measure = measure_tables,
+          .cases = {{"force"}, {"domain"}, {"tolerance", "tolerance", Shown::error}},
+          .cost = {"ns_per_impact", "time per impact", Shown::time},
+          .error = error,
+          .others = of_tables};
 }
 
 }  // namespace vitrel::bench

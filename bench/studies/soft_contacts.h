@@ -1,14 +1,10 @@
 #pragma once
 
-#include <vector>
-
 #include "bench/studies/study.h"
 
-/// @file
-/// What soft_contact_study is put together from.
 namespace vitrel::bench {
 
-std::vector<Part> soft_sphere_parts();
-std::vector<Part> restitution_parts();
+/// Of soft_contact_study: the tables of coefficients beside the integration.
+Part restitution_part();
 
 }  // namespace vitrel::bench

@@ -261,8 +261,8 @@ Json measure_speed(const StudyContext& context) {
 
 }  // namespace
 
-std::vector<Part> soft_sphere_parts() {
-  return {
+Study soft_contact_study() {
+  std::vector<Part> parts = {
       {.name = "accuracy",
        .about = "A granular gas at η = 0.001 for one mean free time, from one state. The "
                 "reference integrates Newton's equations cluster by cluster with adaptive steps "
@@ -283,15 +283,10 @@ std::vector<Part> soft_sphere_parts() {
        .measure = measure_speed,
        .cases = {{"packing_fraction", "η"}},
        .cost = {"ns_per_collision", "time per collision", Shown::time},
-       .others = {{"renewals", "renewals per collision"}}}};
-}
-
-Study soft_contact_study() {
-  std::vector<Part> parts = soft_sphere_parts();
-  for (const Part& part : restitution_parts()) parts.push_back(part);
+       .others = {{"renewals", "renewals per collision"}}},
+      restitution_part()};
   return {.name = "soft-contacts",
-          .aliases = {{"soft-spheres", {"accuracy", "speed"}},
-                      {"restitution", {"integration", "restitution"}}},
+          .aliases = {{"soft-spheres", {"accuracy", "speed"}}, {"restitution", {"restitution"}}},
           .question = "Soft contacts: integrated, tabulated or hard?",
           .parts = parts,
           .settled = {"Haff's law: the late slopes of ln T against ln t of cooling granular gases "

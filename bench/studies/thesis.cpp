@@ -1,4 +1,4 @@
-// What do the figures of chapter 4 of the thesis (woetzel2012) show with its program, and with this one?
+// What do runs of the thesis (woetzel2012) cost with its program and with this one, and what is wrong with them?
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <tuple>
 
 #include "bench/studies/study.h"
 #include "bench/surveys/thesis_run.h"
@@ -68,69 +67,6 @@ Json measure_sizes(const StudyContext& context) {
   return rows;
 }
 
-/// Figure 4.3 at equal area.
-Json measure_aspect_ratios(const StudyContext& context) {
-  Json rows = Json::array();
-  for (const double kappa : {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0}) {
-    const ThesisScene scene{100, kappa, 0.5, context.options.seed};
-    const Configuration2 start = equilibrated(scene, 5 * warm_up);
-    for (const double tau : {0.0, brownian_step}) {
-      if (context.control.stop_requested()) return rows;
-      rows.push_back(row_of(context, Program::ours, scene, tau, start));
-    }
-  }
-  return rows;
-}
-
-/// Figure 4.6.
-Json measure_energies(const StudyContext& context) {
-  const ThesisScene scene{100, usual_aspect_ratio, 0.5, context.options.seed};
-  Json rows = Json::array();
-  const auto note = [&](const Configuration2& now) {
-    const Mechanics sums = mechanics(now);
-    const auto add = [&](const char* kind, double energy) {
-      rows.push_back({{"method", kind},
-                      {"time", now.time},
-                      {"energy", energy / static_cast<double>(now.size())}});
-    };
-    add("translation", sums.translational_energy);
-    add("rotation", sums.rotational_energy);
-  };
-  const Configuration2 start = equilibrated(scene, warm_up);
-  const ThesisRun run = run_thesis(make_program(Program::ours, start), start,
-                                   {context.options.duration}, context.control, note);
-  if (!rows.empty()) rows.back()["energy_drift"] = run.energy_drift;
-  return rows;
-}
-
-/// Figure 4.7.
-Json measure_relaxation(const StudyContext& context) {
-  const int runs = context.options.quick ? 2 : 32;
-  constexpr double dense = 0.5, dilute = 0.001, tau = brownian_step;
-  Json rows = Json::array();
-  for (const auto& [density, share, step, duration] : {std::tuple{dense, 1.0, 0.0, 1.},
-                                                       {dense, 0.0, 0.0, 1.},
-                                                       {dilute, 1.0, 0.0, 100.},
-                                                       {dense, 1.0, tau, 1.},
-                                                       {dense, 0.0, tau, 1.},
-                                                       {dilute, 1.0, tau, 1.}}) {
-    if (context.control.stop_requested()) return rows;
-    const Relaxation of = relax(
-        {density, share, step, duration * context.options.duration, runs, context.options.seed},
-        context.control);
-    for (std::size_t k = 0; k < of.times.size(); ++k)
-      rows.push_back({{"method", share == 0 ? "from rotation" : "from translation"},
-                      {"packing_fraction", density},
-                      {"dynamics", dynamics_name(step)},
-                      {"time", of.times[k]},
-                      {"energy", of.kinetic[k]},
-                      {"expected", of.expected},
-                      {"standard_error", of.standard_error},
-                      {"samples_with_overlap", of.samples_with_overlap}});
-  }
-  return rows;
-}
-
 const std::vector<Column> run_columns = {
     {"collisions_per_time", "collisions per time"},
     {"corrections_per_time", "correction moves per time", Shown::count},
@@ -146,8 +82,8 @@ Study thesis_study() {
   return {.name = "thesis",
           .aliases = {},
           .question =
-              "What do the figures of chapter 4 of the thesis show, with its program and with "
-              "this one?",
+              "What do runs of the thesis cost with its program and with this one, and what is "
+              "wrong with them?",
           .parts = {{.name = "sizes",
                      .about = "Figures 4.1 to 4.4: φ = 0.5, kT = m = a b = 1, from equilibrium. "
                               "`thesis` has no calendar, lists or cells: after every event it "
@@ -159,33 +95,7 @@ Study thesis_study() {
                      .cases = {{"shape"}, {"dynamics"}},
                      .cost = time_per_time,
                      .others = run_columns,
-                     .varied = "particles"},
-                    {.name = "aspect_ratios",
-                     .about = "Figure 4.3: collisions of ellipses of equal area.",
-                     .measure = measure_aspect_ratios,
-                     .cases = {{"dynamics"}},
-                     .cost = time_per_time,
-                     .others = run_columns,
-                     .varied = "aspect_ratio"},
-                    {.name = "energies",
-                     .about = "Figure 4.6: energies per particle in one Newtonian run.",
-                     .measure = measure_energies,
-                     .cases = {},
-                     .cost = {"energy", "energy per particle"},
-                     .others = {{"energy_drift", "energy drift", Shown::error}},
-                     .varied = "time"},
-                    {.name = "relaxation",
-                     .about = "Figure 4.7: kinetic energy of 100 particles from a square lattice "
-                              "whose energy, 3/2 kT per particle, is entirely translational or "
-                              "rotational. In equilibrium, at zero momentum and fixed energy E, "
-                              "it is E times a Beta(N − 1, N/2) variable. Brownian velocities are "
-                              "drawn with the first partition.",
-                     .measure = measure_relaxation,
-                     .cases = {{"packing_fraction", "φ"}, {"dynamics"}},
-                     .cost = {"energy", "kinetic energy per particle"},
-                     .others = {{"expected", "equipartition"},
-                                {"standard_error", "standard error", Shown::error}},
-                     .varied = "time"}},
+                     .varied = "particles"}},
           .defaults = {.seconds = 1, .duration = 100}};
 }
 

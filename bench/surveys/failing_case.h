@@ -5,11 +5,8 @@
 
 namespace vitrel::bench {
 
-/// A pair that a method answered wrongly: a caption ("reports the contact 0.6 too late; …"), the velocity
-/// of body 2 relative to body 1, and pictures of both ellipses at the start, at the true contact, at the
-/// deepest overlap that the method overlooked and at the time it reported, in the order of time. Every
-/// picture is a square from −1 to 1 with a scale of its own (`half_width`, in units of length); if one
-/// ellipse is far larger, only the neighbourhood of the smaller one is shown.
+/// A pair that a method answered wrongly: a caption ("reports the contact 0.6 too late; the first one is at t = 1.2"), and
+/// the command that draws the gap and the contact function of this pair. In units of the pair.
 Json failing_case_json(const FailingCase& failure);
 
 }  // namespace vitrel::bench

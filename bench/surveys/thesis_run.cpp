@@ -78,33 +78,6 @@ void note_overlaps(const Configuration2& now, ThesisRun& result) {
   result.deepest_overlap = std::max(result.deepest_overlap, -check.smallest_gap / now.shape[0].b);
 }
 
-// Velocities whose energy is split as `share` says.
-void draw_wrong_split(Configuration2& c, const RelaxationScene& scene, std::uint64_t seed,
-                      std::uint64_t step) {
-  draw_velocities(c, seed, step == 0 ? Purpose::velocities : Purpose::brownian_step, step,
-                  Temperature::total);
-  const Mechanics drawn = mechanics(c);
-  const double total = drawn.translational_energy + drawn.rotational_energy;
-  const double v = std::sqrt(scene.share * total / drawn.translational_energy);
-  const double omega = std::sqrt((1 - scene.share) * total / drawn.rotational_energy);
-  for (Vec2& velocity : c.velocity) velocity *= v;
-  for (double& angular : c.angular_velocity) angular *= omega;
-}
-
-// When the energies are looked at: ten times per decade, of a Brownian run at ends of its periods.
-std::vector<double> relaxation_times(const RelaxationScene& scene) {
-  constexpr int per_decade = 10;
-  constexpr double first = 0.01;
-  std::vector<double> times;
-  for (int k = 0;; ++k) {
-    double time = first * std::pow(10, static_cast<double>(k) / per_decade);
-    if (time > scene.duration * (1 + 1e-9)) return times;
-    if (scene.brownian_step > 0 && time > scene.brownian_step)
-      time = scene.brownian_step * std::round(time / scene.brownian_step);
-    if (times.empty() || time > times.back()) times.push_back(time);
-  }
-}
-
 }  // namespace
 
 double densest_square_lattice(const Ellipse& shape, double angle) {
@@ -178,8 +151,7 @@ std::unique_ptr<Engine2> make_program(Program program, const Configuration2& sta
 }
 
 ThesisRun run_thesis(std::unique_ptr<Engine2> engine, const Configuration2& start,
-                     const RunLimits& limits, const RunControl& control,
-                     const std::function<void(const Configuration2&)>& at_sample) {
+                     const RunLimits& limits, const RunControl& control) {
   ThesisRun result;
   Driver driver(std::move(engine), start, limits.brownian_step);
   const double first_energy = energy(start);
@@ -196,45 +168,11 @@ ThesisRun run_thesis(std::unique_ptr<Engine2> engine, const Configuration2& star
     if (limits.brownian_step == 0)
       result.energy_drift =
           std::max(result.energy_drift, std::abs(energy(driver.now()) / first_energy - 1));
-    if (at_sample) at_sample(driver.now());
     if (result.seconds > limits.seconds) break;
     if (driver.next_step() < until + 0.5 * sample_interval)
       result.seconds += seconds_of([&] { driver.step(draw); });
   }
   result.counters = driver.counters();
-  return result;
-}
-
-Relaxation relax(const RelaxationScene& scene, const RunControl& control) {
-  constexpr int particles = 100;
-  Relaxation result;
-  result.scene = scene;
-  result.times = relaxation_times(scene);
-  result.kinetic.assign(result.times.size(), 0);
-  for (int k = 0; k < scene.runs && !control.stop_requested(); ++k) {
-    const std::uint64_t seed = scene.seed + static_cast<std::uint64_t>(k);
-    const auto draw = [&](Configuration2& now, std::uint64_t step) {
-      draw_wrong_split(now, scene, seed, step);
-    };
-    Configuration2 start = on_lattice({particles, 2, scene.packing_fraction, seed});
-    draw(start, 0);
-    Driver driver(make_engine(start, {}), start, scene.brownian_step);
-    for (std::size_t at = 0; at < result.times.size(); ++at) {
-      // Periods that end before the time, not with it: energies are those just before a step.
-      while (driver.next_step() < result.times[at] * (1 - 1e-9)) {
-        driver.advance(driver.next_step());
-        driver.step(draw);
-      }
-      driver.advance(std::min(result.times[at], driver.next_step()));
-      result.kinetic[at] += mechanics(driver.now()).translational_energy / (particles * scene.runs);
-      ++result.samples;
-      if (!exact_check(driver.now()).clean()) ++result.samples_with_overlap;
-    }
-  }
-  // Beta(α, β): mean α/(α + β), variance αβ/((α + β)²(α + β + 1)).
-  const double alpha = particles - 1, beta = 0.5 * particles, sum = alpha + beta;
-  result.expected = 1.5 * alpha / sum;
-  result.standard_error = 1.5 * std::sqrt(alpha * beta / (sum * sum * (sum + 1)) / scene.runs);
   return result;
 }
 

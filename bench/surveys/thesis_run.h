@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
+#include <memory>
 
 #include "core/io/json.h"
 #include "core/state/configuration.h"
@@ -62,34 +60,8 @@ Json run_json(const ThesisRun& run);
 
 std::unique_ptr<Engine2> make_program(Program program, const Configuration2& start);
 
-/// Samples every 0.1 units of time: the exact check, the energy, and `at_sample`.
+/// Samples every 0.1 units of time: the exact check, and the energy.
 ThesisRun run_thesis(std::unique_ptr<Engine2> engine, const Configuration2& start,
-                     const RunLimits& limits, const RunControl& control,
-                     const std::function<void(const Configuration2&)>& at_sample = {});
-
-/// Energies after a start whose split between translation and rotation is wrong (figure 4.7): the
-/// mean over `runs` runs of the kinetic energy of translation per particle, at ascending times.
-struct RelaxationScene {
-  double packing_fraction = 0.5;
-  double share = 1;          ///< of the energy, 3/2 kT per particle, that begins in translation
-  double brownian_step = 0;  ///< τ_B: the wrong split is drawn anew every τ_B; 0: never
-  double duration = 100;
-  int runs = 32;
-  std::uint64_t seed = 1;
-};
-struct Relaxation {
-  RelaxationScene scene;
-  std::vector<double>
-      times;  ///< of a Brownian run: in the first period, then at the ends of periods
-  std::vector<double> kinetic;  ///< per particle, mean over the runs
-  /// In equilibrium at zero momentum and fixed energy E the kinetic energy of translation is E times
-  /// a Beta(N − 1, N/2) variable: every configuration of momenta with the energy E and the momentum 0
-  /// is equally likely, and those are 2N − 2 and N quadratic degrees of freedom.
-  double expected = 0;        ///< per particle
-  double standard_error = 0;  ///< of the mean over the runs
-  std::uint64_t samples = 0;
-  std::uint64_t samples_with_overlap = 0;
-};
-Relaxation relax(const RelaxationScene& scene, const RunControl& control);
+                     const RunLimits& limits, const RunControl& control);
 
 }  // namespace vitrel::bench

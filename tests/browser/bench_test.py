@@ -32,7 +32,7 @@ class StudyPage(unittest.TestCase):
         for _ in self.page("contact-time", "--class", "generic", "--pairs", "30", "--seconds", "0.2"):
             self.assertEqual(self.count("#parts section"), 6)
             self.assertEqual(self.count(".chart canvas"), 3)
-            self.assertGreater(self.count("#failures svg ellipse"), 3)
+            self.assertGreater(self.count("#failures pre"), 3)
             first = "document.querySelector('#plane tbody tr').textContent"
             self.assertIn("generic, κ = 2", self.browser.evaluate(first))
 

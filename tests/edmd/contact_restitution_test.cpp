@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/baselines/plain_contact.h"
 #include "core/random/stream.h"
 #include "edmd/soft/contact_integration.h"
 #include "edmd/soft/linear_dashpot.h"
 #include "edmd/soft/viscoelastic.h"
+#include "tests/support/plain_contact.h"
 
 namespace vitrel {
 namespace {
@@ -139,7 +139,7 @@ TYPED_TEST(EveryForce, AgreesWithAnIndependentIntegration) {
     SCOPED_TRACE(testing::Message() << "l = " << of.distance << ", c_φ = " << of.angular_momentum
                                     << ", c_dis = " << of.damping);
     const Restitution found = integrate_contact<TypeParam>(of);
-    const Restitution expected = bench::PlainContact<TypeParam>(of)();
+    const Restitution expected = PlainContact<TypeParam>(of)();
     expect_relative(found.distance, expected.distance, 1e-13);
     expect_relative(found.angle, expected.angle, 1e-12);
     expect_relative(found.duration, expected.duration, 1e-12);

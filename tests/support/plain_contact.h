@@ -11,9 +11,9 @@
 #include "edmd/soft/restitution.h"
 #include "edmd/soft/viscoelastic.h"
 
-namespace vitrel::bench {
+namespace vitrel {
 
-/// The baseline of integrate_contact: the equations of motion as they stand, in l − r, φ and t, in
+/// What integrate_contact is compared with: the equations of motion as they stand, in l − r, φ and t, in
 /// extended precision by the method of Bulirsch and Stoer, up to the last step that does not pass the
 /// end of the contact. Neither variables nor method nor the search for the end are those of edmd. Its errors
 /// are some 10⁻¹⁶, absolute: damping beyond c_dis = 20 leaves too little of ε_t and ε_ṙ.
@@ -69,4 +69,4 @@ class PlainContact {
   long double distance_, swirl_, damping_;
 };
 
-}  // namespace vitrel::bench
+}  // namespace vitrel
