@@ -15,7 +15,8 @@ from . import _vitrel
 from .observations import Observations
 from .parameters import Import
 from .results import Results, plain_columns, tables_of
-from .settings import AnalysisSettings, RunSettings, assignments, listener
+from .progress import listener
+from .settings import AnalysisSettings, RunSettings, assignments
 from .states import Path, Start, State, export_file, start_and_parameters, start_file
 
 
@@ -225,7 +226,7 @@ def run(start: Start = None, file: Optional[Path] = None, *, output: Path, obser
     threads : int
         Results do not depend on it.
     quiet : bool
-        No progress on the terminal.
+        No progress, which otherwise a terminal or a notebook shows (as a bar where tqdm is installed).
     **settings
         Keys of the parameter file (`vitrel.settings.RunSettings`): those of `[dynamics]` (`kind`, `duration`,
         `brownian_step` …), `[system]`, `[output]` (`samples`, `correlations` …) and `[prepare]`

@@ -3,9 +3,8 @@
 import contextlib
 import inspect
 import re
-import sys
 import tomllib
-from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, TextIO, Tuple, TypedDict, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, TypedDict, Union
 
 from . import parameters
 from ._vitrel import FileError, InvariantError, UserError
@@ -169,32 +168,3 @@ def to_toml(sections: Mapping[str, Any]) -> str:
         if isinstance(keys, Mapping):
             text += f"[{name.removesuffix('_')}]\n" + "".join(f"{key} = {toml(value)}\n" for key, value in keys.items())
     return text
-
-
-class _Line:
-    """The last line of the terminal, taken off again when the work ends."""
-
-    def __init__(self, stream: TextIO) -> None:
-        self._stream = stream
-
-    def say(self, line: str) -> None:
-        print(f"\r\033[K{line}", file=self._stream)
-
-    def show(self, fraction: float, quantity: str, value: float) -> None:
-        print(f"\r\033[K{100 * fraction:5.1f} %  {quantity} {value:.6g}", end="", file=self._stream, flush=True)
-
-    def close(self) -> None:
-        print("\r\033[K", end="", file=self._stream, flush=True)
-
-
-class _Nothing:
-    def close(self) -> None:
-        pass
-
-
-def listener(quiet: bool) -> Tuple[Optional[Callable[[str], None]], Optional[Callable[[float, str, float], None]], Union[_Line, _Nothing]]:
-    """The callbacks of a piece of work, on a terminal: lines about its steps, its progress, and what is closed at its end."""
-    if quiet or not sys.stderr.isatty():
-        return None, None, _Nothing()
-    line = _Line(sys.stderr)
-    return line.say, line.show, line

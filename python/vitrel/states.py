@@ -12,7 +12,8 @@ import numpy
 
 from . import _vitrel
 from .parameters import Import
-from .settings import PrepareSettings, assignments, listener
+from .progress import listener
+from .settings import PrepareSettings, assignments
 
 
 class State:

@@ -12,7 +12,8 @@ from typing import List, Optional, Unpack
 from . import _vitrel
 from .results import Results, tables_of
 from .runs import Page, Run
-from .settings import AnalysisSettings, SweepSettings, assignments, listener
+from .progress import listener
+from .settings import AnalysisSettings, SweepSettings, assignments
 from .states import Path
 
 

@@ -1,7 +1,9 @@
 """Runs: the same as from the command line, and what Python adds to them."""
 
+import io
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -29,6 +31,27 @@ def command_line(program, folder, output):
         "[system]\nparticles = 100\npacking_fraction = 0.5\nseed = 3\n[[species]]\naspect_ratio = 2\n"
         "[dynamics]\nduration = 5\nequilibration = 0\n", encoding="utf-8")
     subprocess.run([program, "run", folder / "p.toml", "-o", output, "--quiet"], check=True)
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize("has_tqdm", [True, False])
+def test_a_terminal_shows_progress(tmp_path, monkeypatch, has_tqdm):
+    if not has_tqdm:
+        monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    vitrel.run(output=tmp_path / "a.h5", duration=50, equilibration=0, **SMALL)
+    shown = terminal.getvalue()
+    assert "insert at packing fraction" in shown and "run of rotating ellipses" in shown
+    assert re.search(r"%.*time \d", shown)
+    assert ("| 00:0" in shown) == has_tqdm
+    terminal.truncate(0)
+    vitrel.run(output=tmp_path / "b.h5", duration=1, equilibration=0, quiet=True, **SMALL)
+    assert not terminal.getvalue()
 
 
 def test_a_run_is_that_of_the_command_line(tmp_path, vitrel_program):
