@@ -7,6 +7,7 @@ import json
 import operator
 import os
 import pathlib
+import time
 from typing import Callable, Iterator, Mapping, Optional, Sequence, SupportsIndex, Unpack, overload
 
 import numpy
@@ -97,6 +98,28 @@ class Run(Page):
 
     def __iter__(self) -> Iterator[State]:
         return iter(self[:])
+
+    def live(self, interval: float = 1) -> Iterator["Run"]:
+        """The run while another process writes it: as it is now, again whenever it has more frames, and last when it has ended.
+
+            for run in vitrel.load("run.h5").live():
+                print(run.times[-1], run.msd[-1])
+
+        Parameters
+        ----------
+        interval : float
+            Seconds between two looks at the file.
+        """
+        frames = -1
+        while True:
+            now = Run(self.path, imports=self._imports)
+            has_ended = "in progress" not in now.imported
+            if has_ended or len(now) > frames:
+                yield now
+            if has_ended:
+                return
+            frames = len(now)
+            time.sleep(interval)
 
     def __repr__(self) -> str:
         return f"<Run {self.path}: {len(self)} frames>"

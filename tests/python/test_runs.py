@@ -218,6 +218,20 @@ def test_frames_are_a_sequence(tmp_path):
         run[1.5]
 
 
+def test_a_run_is_seen_while_it_is_written(tmp_path, vitrel_program):
+    file = tmp_path / "run.h5"
+    (tmp_path / "p.toml").write_text("[system]\nparticles = 1000\n[prepare]\nquality_sweeps = 0\n"
+                                     "[dynamics]\nduration = 200\nequilibration = 0\n", encoding="utf-8")
+    with subprocess.Popen([vitrel_program, "run", tmp_path / "p.toml", "-o", file, "-q"]) as program:
+        while not file.exists():
+            assert program.poll() is None
+            time.sleep(0.01)
+        seen = list(vitrel.load(file).live(interval=0.01))
+    lengths = [len(run) for run in seen]
+    assert lengths == sorted(lengths) and lengths[-1] == 201 and not seen[-1].imported
+    assert [len(run) for run in seen[-1].live()] == [201]
+
+
 def test_runs_are_pickled_by_their_path(tmp_path):
     run = vitrel.run(output=tmp_path / "run.h5", duration=5, equilibration=0, **SMALL)
     copy = pickle.loads(pickle.dumps(run))
