@@ -17,6 +17,8 @@ void write_states(const std::filesystem::path& path, const py::list& states) {
       path, first, current_provenance("vitrel (Python)", "", 0), {.velocities = true});
   std::int64_t step = 0;
   for (const py::handle& state : states) {
+    if (!py::isinstance<Configuration<Dim>>(state))
+      throw UserError(fmt::format("state {} has another dimension than the first", step));
     const auto& now = state.cast<const Configuration<Dim>&>();
     if (!same_particles(first, now))
       throw UserError(fmt::format("state {} has other particles than the first", step));

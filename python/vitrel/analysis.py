@@ -14,6 +14,7 @@ from typing import Iterable, Optional, Unpack
 import numpy
 
 from . import _vitrel
+from .arrays import real
 from .results import Results, Table, tables_of
 from .settings import AnalysisSettings, assignments
 from .states import State
@@ -24,6 +25,9 @@ def analyze(states: Iterable[State], **settings: Unpack[AnalysisSettings]) -> Re
     states = [states] if isinstance(states, State) else list(states)
     if not states:
         raise _vitrel.UserError("there are no states")
+    for state in states:
+        if not isinstance(state, State):
+            raise _vitrel.UserError(f"states must be objects of vitrel.State, not {type(state).__name__}")
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "states.h5")
         _vitrel.write_run(file, [state._state for state in states])
@@ -76,11 +80,13 @@ def msd(positions, times, box: Optional[Iterable[float]] = None, *, angle=None, 
     angle : array_like, shape (T, N), optional
         Of bodies in the plane with these `semi_axes`, shape (2,) or (N, 2).
     """
-    positions, times = numpy.asarray(positions, dtype=float), numpy.asarray(times, dtype=float)
+    positions, times = real("positions", positions), real("times", times)
     if positions.ndim != 3 or times.shape != positions.shape[:1]:
         raise _vitrel.UserError(f"positions have the shape {positions.shape} and times {times.shape}, but must have (T, N, D) "
                                 "and (T,)")
     if box is None:
+        if not positions.size:
+            raise _vitrel.UserError(f"positions are empty: their shape is {positions.shape}")
         box = 2 * numpy.ptp(positions, axis=(0, 1)) + 1
         positions = positions - positions.mean(axis=(0, 1))
     else:

@@ -5,6 +5,7 @@ from typing import Callable, Dict, Mapping
 import numpy
 
 from . import _vitrel
+from .arrays import real
 from .results import Column, Results, Table
 from .states import State
 
@@ -25,7 +26,7 @@ class Observations:
     def observe(self, state: State) -> None:
         """Adds the values of a frame."""
         for name, function in self._functions.items():
-            value = numpy.asarray(function(state), dtype=float)
+            value = real(f"observable '{name}'", function(state))
             if value.ndim > 1:
                 raise _vitrel.UserError(f"observable '{name}' has {value.ndim} dimensions; a number or a list is possible")
             known = next(iter(self._values[name].values()), value)

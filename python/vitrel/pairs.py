@@ -6,6 +6,7 @@ from typing import NamedTuple, Optional
 import numpy
 
 from . import _vitrel
+from .arrays import real, real_rows
 from .toml import toml
 
 
@@ -30,24 +31,36 @@ class Bodies:
 
     def __init__(self, semi_axes, position, *, angle=0.0, orientation=(1.0, 0.0, 0.0, 0.0), velocity=None,
                  angular_velocity=None):
-        semi_axes = numpy.atleast_1d(numpy.asarray(semi_axes, dtype=float))
+        semi_axes = numpy.atleast_1d(real("semi_axes", semi_axes))
         self.dimension = semi_axes.shape[-1]
         if self.dimension not in (2, 3):
             raise _vitrel.UserError("semi_axes must be two numbers, of ellipses, or three, of ellipsoids")
         in_plane = self.dimension == 2
-        still, at_rest = numpy.zeros(self.dimension), numpy.zeros(() if in_plane else 3)
-        given = [semi_axes, position, angle if in_plane else orientation, still if velocity is None else velocity,
-                 at_rest if angular_velocity is None else angular_velocity]
-        rows = [numpy.asarray(values, dtype=float) for values in given]
-        # Dimensions of one body's entry.
-        own = [1, 1, 0 if in_plane else 1, 1, 0 if in_plane else 1]
-        count = numpy.broadcast_shapes((1,), *(array.shape[:array.ndim - k] for array, k in zip(rows, own)))
+        still = numpy.zeros(self.dimension)
+        at_rest = numpy.zeros(() if in_plane else 3)
+        rows = {"semi_axes": semi_axes, "position": position, **({"angle": angle} if in_plane else {"orientation": orientation}),
+                "velocity": still if velocity is None else velocity,
+                "angular_velocity": at_rest if angular_velocity is None else angular_velocity}
+        entries = [still.shape, still.shape, () if in_plane else (4,), still.shape, at_rest.shape]
+        arrays = [real_rows(name, values, entry) for (name, values), entry in zip(rows.items(), entries)]
+        counts = [array.shape[:array.ndim - len(entry)] for array, entry in zip(arrays, entries)]
+        try:
+            count = numpy.broadcast_shapes((1,), *counts)
+        except ValueError:
+            shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(rows, arrays))
+            raise _vitrel.UserError(f"the shapes do not fit to one number of bodies: {shapes}") from None
         kind = _vitrel.Ellipses if in_plane else _vitrel.Ellipsoids
-        self._bodies = kind(*(numpy.broadcast_to(array, count + array.shape[array.ndim - k:])
-                              for array, k in zip(rows, own)))
+        self._bodies = kind(*(numpy.broadcast_to(array, count + entry) for array, entry in zip(arrays, entries)))
 
     def __len__(self):
         return len(self._bodies)
+
+
+def _both(*bodies):
+    for given in bodies:
+        if not isinstance(given, Bodies):
+            raise _vitrel.UserError(f"one and two must be objects of vitrel.Bodies, not {type(given).__name__}")
+    return [given._bodies for given in bodies]
 
 
 def overlap(one: Bodies, two: Bodies, box: Optional[numpy.ndarray] = None) -> numpy.ndarray:
@@ -64,7 +77,7 @@ def overlap(one: Bodies, two: Bodies, box: Optional[numpy.ndarray] = None) -> nu
     -------
     numpy.ndarray of bool, shape (N,)
     """
-    return _vitrel.overlap(one._bodies, two._bodies, box)
+    return _vitrel.overlap(*_both(one, two), box)
 
 
 class Gap(NamedTuple):
@@ -78,7 +91,7 @@ class Gap(NamedTuple):
 
 def gap(one: Bodies, two: Bodies, box: Optional[numpy.ndarray] = None) -> Gap:
     """The distance of the surfaces of each pair, to rounding; arguments as of `overlap`."""
-    return Gap(*_vitrel.gap(one._bodies, two._bodies, box))
+    return Gap(*_vitrel.gap(*_both(one, two), box))
 
 
 class Contact(NamedTuple):
@@ -91,7 +104,7 @@ class Contact(NamedTuple):
 
 def first_contact(one: Bodies, two: Bodies, horizon: float, box: Optional[numpy.ndarray] = None) -> Contact:
     """When each pair touches first in free flight, up to `horizon`; other arguments as of `overlap`."""
-    return Contact(*_vitrel.first_contact(one._bodies, two._bodies, box, horizon))
+    return Contact(*_vitrel.first_contact(*_both(one, two), box, horizon))
 
 
 class Restitution(NamedTuple):
@@ -120,7 +133,8 @@ def restitution(speed, impact_parameter=0.0, second_radius=None, file=None, **co
     **contact
         Keys of `[dynamics.contact]`: the material.
     """
-    given = [numpy.asarray(values, dtype=float) for values in (speed, impact_parameter, second_radius) if values is not None]
+    named = {"speed": speed, "impact_parameter": impact_parameter, "second_radius": second_radius}
+    given = [real(name, values) for name, values in named.items() if values is not None]
     rows = numpy.broadcast_arrays(numpy.zeros(1), *given)[1:]
     radii = rows[2] if second_radius is not None else None
     lines = [f"{key.replace('__', '.')}={toml(value)}" for key, value in contact.items()]

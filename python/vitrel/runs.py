@@ -15,8 +15,8 @@ import numpy
 from . import _vitrel
 from .observations import Observations
 from .parameters import Import
-from .results import Results, plain_columns, tables_of
 from .progress import listener
+from .results import Results, plain_columns, tables_of
 from .settings import AnalysisSettings, RunSettings, assignments
 from .states import Path, Start, State, export_file, start_and_parameters, start_file
 
@@ -218,7 +218,7 @@ class Run(Page):
         with assignments(Run.analyze, settings) as lines:
             text, columns, provenance = _vitrel.analyze(self.path, [*self._imports, *lines])
         summary, tables = json.loads(text), tables_of(columns, self.dimension)
-        if observe:
+        if observe is not None:
             own = Observations(observe).results(self)
             summary.update(own.summary)
             tables += own.values()

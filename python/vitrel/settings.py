@@ -153,6 +153,8 @@ def from_toml(text: str) -> Dict[str, Any]:
 
     >>> vitrel.prepare(**vitrel.from_toml("[[prepare.stage]]\\nmethod = 'insert'\\npacking_fraction = 0.5"))
     """
+    if not isinstance(text, str):
+        raise UserError(f"text must be a string, not {type(text).__name__}")
     found: Dict[str, Any] = objects(tomllib.loads(text), ParameterFile)
     return found
 
@@ -163,6 +165,8 @@ def to_toml(sections: Mapping[str, Any]) -> str:
     >>> vitrel.to_toml({"prepare": {"stage": [vitrel.Insert(packing_fraction=0.5)]}})
     '[prepare]\\nstage = [{ method = "insert", packing_fraction = 0.5 }]\\n'
     """
+    if not isinstance(sections, Mapping):
+        raise UserError(f"sections must be a mapping, not {type(sections).__name__}")
     text = "".join(f"{name} = {toml(rows)}\n" for name, rows in sections.items() if not isinstance(rows, Mapping))
     for name, keys in sections.items():
         if isinstance(keys, Mapping):

@@ -11,6 +11,7 @@ from typing import Iterator, Optional, Tuple, Union, Unpack
 import numpy
 
 from . import _vitrel
+from .arrays import real
 from .parameters import Import
 from .progress import listener
 from .settings import PrepareSettings, assignments
@@ -63,7 +64,7 @@ class State:
         One shape, mass or species may stand for those of all. Positions may be anywhere. Without masses particles have
         the mass a b (in space a b c).
         """
-        position = numpy.asarray(position, dtype=float)
+        position = real("position", position)
         if position.ndim != 2 or position.shape[1] not in (2, 3):
             raise _vitrel.UserError(f"position has the shape {position.shape}, but must have (N, 2) in the plane, (N, 3) in space")
         count, dimension = position.shape
@@ -136,7 +137,7 @@ class State:
         """Red, green and blue from 0 to 255, shape (N, 3)."""
         if colour is None or isinstance(colour, str):
             return _vitrel.particle_colours(self._state, "orientation" if colour == "angle" else colour or "")
-        numbers = numpy.asarray(colour, dtype=float)
+        numbers = real("colour", colour)
         if numbers.shape != (len(self),) or not numpy.isfinite(numbers).all():
             raise _vitrel.UserError(f"colour must be a name or an array of finite numbers of the shape ({len(self)},)")
         return _vitrel.number_colours(numbers)
@@ -196,7 +197,7 @@ def _rows(count, dimension, name, values, shape):
     """An array with an entry of this shape for every particle, of which one may stand for all."""
     if values is None:
         return None
-    array = numpy.asarray(values, dtype=float)
+    array = real(name, values)
     wanted = shape if count is None else (count, *shape)
     try:
         if array.ndim in (len(shape), len(wanted)) or array.ndim == 0:

@@ -10,9 +10,9 @@ import sysconfig
 from typing import List, Optional, Unpack
 
 from . import _vitrel
+from .progress import listener
 from .results import Results, tables_of
 from .runs import Page, Run
-from .progress import listener
 from .settings import AnalysisSettings, SweepSettings, assignments
 from .states import Path
 
