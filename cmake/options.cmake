@@ -54,6 +54,10 @@ if(VITREL_PROCESSOR)
 endif()
 if(VITREL_SANITIZE)
   target_compile_options(vitrel_options INTERFACE -fsanitize=${VITREL_SANITIZE} -fno-omit-frame-pointer)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # With sanitizers GCC warns where nothing is uninitialised, as its manual says.
+    target_compile_options(vitrel_options INTERFACE -Wno-maybe-uninitialized)
+  endif()
   target_link_options(vitrel_options INTERFACE -fsanitize=${VITREL_SANITIZE})
 endif()
 
