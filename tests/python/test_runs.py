@@ -14,6 +14,7 @@ import h5py
 import numpy
 import pytest
 import vitrel
+from vitrel.progress import listener
 
 SMALL = {"particles": 100, "packing_fraction": 0.5, "aspect_ratio": 2, "seed": 3, "prepare__quality_sweeps": 0}
 
@@ -38,17 +39,31 @@ class Terminal(io.StringIO):
         return True
 
 
-@pytest.mark.parametrize("has_tqdm", [True, False])
-def test_a_terminal_shows_progress(tmp_path, monkeypatch, has_tqdm):
-    if not has_tqdm:
-        monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+def terminal_of(monkeypatch):
+    """In the place of stderr; not a fixture, as pytest replaces stderr between its set-up and the test."""
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    vitrel.run(output=tmp_path / "a.h5", duration=50, equilibration=0, **SMALL)
+    return terminal
+
+
+@pytest.mark.parametrize("has_tqdm", [True, False])
+def test_progress_is_shown(monkeypatch, has_tqdm):
+    terminal = terminal_of(monkeypatch)
+    if not has_tqdm:
+        monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    say, show, end = listener(quiet=False)
+    say("run of disks")
+    show(0.25, "time", 12.5)
+    assert re.search(r"run of disks.*25.*%.*time 12\.5", terminal.getvalue(), re.DOTALL)
+    assert ("| 00:00" in terminal.getvalue()) == has_tqdm
+    end.close()
+
+
+def test_a_terminal_shows_the_steps_of_a_run_unless_it_is_quiet(tmp_path, monkeypatch):
+    terminal = terminal_of(monkeypatch)
+    vitrel.run(output=tmp_path / "a.h5", duration=1, equilibration=0, **SMALL)
     shown = terminal.getvalue()
     assert "insert at packing fraction" in shown and "run of rotating ellipses" in shown
-    assert re.search(r"%.*time \d", shown)
-    assert ("| 00:0" in shown) == has_tqdm
     terminal.truncate(0)
     vitrel.run(output=tmp_path / "b.h5", duration=1, equilibration=0, quiet=True, **SMALL)
     assert not terminal.getvalue()
@@ -218,15 +233,22 @@ def test_frames_are_a_sequence(tmp_path):
         run[1.5]
 
 
+def loaded(file, program):
+    """The run, as soon as the program has begun to write it."""
+    while True:
+        try:
+            return vitrel.load(file)
+        except vitrel.FileError:
+            assert program.poll() in (None, 0)
+            time.sleep(0.01)
+
+
 def test_a_run_is_seen_while_it_is_written(tmp_path, vitrel_program):
     file = tmp_path / "run.h5"
     (tmp_path / "p.toml").write_text("[system]\nparticles = 1000\n[prepare]\nquality_sweeps = 0\n"
                                      "[dynamics]\nduration = 200\nequilibration = 0\n", encoding="utf-8")
     with subprocess.Popen([vitrel_program, "run", tmp_path / "p.toml", "-o", file, "-q"]) as program:
-        while not file.exists():
-            assert program.poll() is None
-            time.sleep(0.01)
-        seen = list(vitrel.load(file).live(interval=0.01))
+        seen = list(loaded(file, program).live(interval=0.01))
     lengths = [len(run) for run in seen]
     assert lengths == sorted(lengths) and lengths[-1] == 201 and not seen[-1].imported
     assert [len(run) for run in seen[-1].live()] == [201]
