@@ -86,7 +86,6 @@ Json summary(const Preparation<2>& preparation, const Parameters& parameters,
   result["overlaps"] = quality.overlaps;
   result["smallest_gap"] = quality.smallest_gap;
   result["reduced_pressure"] = quality.reduced_pressure.mean;
-  result["model"] = preparation_model(parameters, preparation.configuration);
   result["stages"] = stage_summaries(parameters, preparation.stages);
   result["quality"] = quality_json(quality);
   return result;
@@ -97,7 +96,6 @@ Json summary(const Preparation<3>& preparation, const Parameters& parameters,
   Json result = {{"output", output.string()}, {"quality_report", quality_file(output).string()}};
   result.update(quality_json(quality));
   result["collisions_per_second"] = static_cast<double>(quality.collisions) / quality.wall_seconds;
-  result["model"] = preparation_model(parameters, preparation.configuration);
   result["stages"] = stage_summaries(parameters, preparation.stages);
   return result;
 }
@@ -167,7 +165,9 @@ int prepare_state(const PrepareOptions& options, const PrepareRequest& request, 
   }
   forget_preparation(options.output);
   if (options.print.json) {
-    print_summary(options.print, summary(preparation, parameters, *quality, options.output));
+    Json all = summary(preparation, parameters, *quality, options.output);
+    all["model"] = provenance.model;
+    print_summary(options.print, all);
   } else if (!options.print.quiet) {
     print_outcome(options, preparation, *quality);
   }

@@ -417,10 +417,9 @@ Study sampling_study() {
                  .about =
                      "Processor time on one thread until the standard error of Z = βP/ρ is "
                      "0.1 %, from blocks that may be correlated (–: too few to tell): motion by "
-                     "the virial, local "
-                     "moves by the "
-                     "contact function, event chains by the contacts of the chains; Monte Carlo "
-                     "at constant pressure by the packing fraction that is found.",
+                     "the virial, local moves by the contact function, event chains by the "
+                     "contacts of the chains; Monte Carlo at constant pressure by the packing "
+                     "fraction that is found.",
                  .measure = measure_pressure,
                  .cases = {{"shape"}},
                  .cost = {"ns", "time for 0.1 %", Shown::time},

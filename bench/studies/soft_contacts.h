@@ -4,7 +4,7 @@
 
 namespace vitrel::bench {
 
-/// Of soft_contact_study: the tables of coefficients beside the integration.
+/// Compares tables of coefficients with the integration; a part of soft_contact_study.
 Part restitution_part();
 
 }  // namespace vitrel::bench

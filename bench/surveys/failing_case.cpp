@@ -29,6 +29,8 @@ std::string failure_text(const FailingCase& failure) {
 
 std::string truth_text(const TrueContact& truth) {
   if (truth.outcome == TrueContact::Outcome::none) return "there is none";
+  if (truth.outcome == TrueContact::Outcome::overlap_at_start)
+    return "the pair overlaps at the start";
   return fmt::format("the first one is at t = {:.12g}", static_cast<double>(truth.time));
 }
 

@@ -15,7 +15,7 @@ def real(name: str, values: Any) -> numpy.ndarray:
             return numpy.asarray(array, dtype=float)
         kind = f"values of the type {array.dtype}"
     except (TypeError, ValueError, OverflowError):
-        kind = f"what this {type(values).__name__} holds"
+        kind = f"the contents of this {type(values).__name__}"
     raise UserError(f"{name} must be real numbers, not {kind}")
 
 

@@ -48,7 +48,7 @@ class Bodies:
             count = numpy.broadcast_shapes((1,), *counts)
         except ValueError:
             shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(rows, arrays))
-            raise _vitrel.UserError(f"the shapes do not fit to one number of bodies: {shapes}") from None
+            raise _vitrel.UserError(f"all arrays must be for the same number of bodies, but their shapes are: {shapes}") from None
         kind = _vitrel.Ellipses if in_plane else _vitrel.Ellipsoids
         self._bodies = kind(*(numpy.broadcast_to(array, count + entry) for array, entry in zip(arrays, entries)))
 

@@ -52,8 +52,8 @@ def _is_notebook() -> bool:
 
 def listener(quiet: bool) -> Tuple[Optional[Callable[[str], None]], Optional[Callable[[float, str, float], None]],
                                    Union[_Bar, _Line, _Nothing]]:
-    """The callbacks of a piece of work, on a terminal or in a notebook: lines about its steps, its progress, by tqdm if it is
-    installed, and what is closed at its end.
+    """The callbacks of a piece of work on a terminal or in a notebook: one for lines about its steps and one for its progress,
+    by tqdm if that is installed, and what is to be closed at its end.
     """
     if quiet or not (sys.stderr.isatty() or _is_notebook()):
         return None, None, _Nothing()

@@ -36,8 +36,7 @@ bool is_round(const Species& p);
 ///   an ellipse has at least the area (A/π) n tan(π/n), convex in n.
 /// - Equal spheres: π/√18 (hales2005).
 /// - All others: 1. Small disks or spheres fill the holes between large ones, and crystals of ellipsoids are denser
-/// than
-///   those of spheres: 0.7707 at the aspect ratio √3 (donev2004).
+///   than those of spheres: 0.7707 at the aspect ratio √3 (donev2004).
 ///
 /// The species must be valid.
 PackingBound packing_bound(const std::vector<Species>& species, int dimension);

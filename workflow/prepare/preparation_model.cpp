@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <type_traits>
 #include <variant>
 
 #include "edmd/engine.h"
@@ -27,16 +26,34 @@ std::string growth_model(const Configuration<Dim>& some) {
   return make_engine(some, growing)->description();
 }
 
+template <int Dim>
+std::string stage_model(const SwellStage&, const Configuration<Dim>& some) {
+  return monte_carlo_model(Moves::local, some);
+}
+
+template <int Dim>
+std::string stage_model(const CompressStage&, const Configuration<Dim>& some) {
+  return monte_carlo_model(Moves::local, some);
+}
+
+template <int Dim>
+std::string stage_model(const SampleStage& stage, const Configuration<Dim>& some) {
+  return monte_carlo_model(stage.moves, some);
+}
+
+template <int Dim>
+std::string stage_model(const GrowStage&, const Configuration<Dim>& some) {
+  return growth_model(some);
+}
+
+template <int Dim>
+std::string stage_model(const HybridStage& stage, const Configuration<Dim>& some) {
+  return growth_model(some) + ", and " + monte_carlo_model(stage.moves, some);
+}
+
 template <class S, int Dim>
-std::string stage_model(const S& stage, const Configuration<Dim>& some) {
-  if constexpr (std::is_same_v<S, GrowStage>)
-    return growth_model(some);
-  else if constexpr (std::is_same_v<S, HybridStage>)
-    return growth_model(some) + ", and " + monte_carlo_model(stage.moves, some);
-  else if constexpr (std::is_same_v<S, SampleStage>)
-    return monte_carlo_model(stage.moves, some);
-  else
-    return monte_carlo_model(Moves::local, some);
+requires S::places_particles std::string stage_model(const S&, const Configuration<Dim>&) {
+  return "";
 }
 
 }  // namespace
@@ -45,11 +62,10 @@ template <int Dim>
 std::string preparation_model(const Parameters& parameters, const Configuration<Dim>& some) {
   std::string text;
   for (const Stage& stage : parameters.stages) {
-    const char* name = method_name(stage);
-    if (places_particles(name)) continue;
     const std::string model =
         std::visit([&](const auto& options) { return stage_model(options, some); }, stage);
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", name, model);
+    if (!model.empty())
+      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", method_name(stage), model);
   }
   return text;
 }

@@ -39,8 +39,8 @@ template <int Dim>
 std::vector<StageCost> stage_costs(const Parameters& parameters, const Configuration<Dim>& some,
                                    double start);
 
-/// A line for each stage, how they are simulated, and the time that they take together. `some`: the particles of the given state that the first stage takes, else
-/// some that represent them.
+/// A line for each stage, the time that they take together, and how they are simulated. `some`: the particles of the
+/// given state that the first stage takes, else some that represent them.
 template <int Dim>
 std::string preparation_plan(const Parameters& parameters, const Configuration<Dim>& some);
 
