@@ -28,12 +28,12 @@ std::vector<Vec<Dim>> directions() {
 }
 
 /// ℓ²/I of the contact at the point with normal n.
-double lever_term(const Configuration2& c, std::size_t i, const Vec2& point, const Vec2& n) {
+double lever_term(double inertia, const Vec2& point, const Vec2& n) {
   const double lever = point.x() * n.y() - point.y() * n.x();
-  return c.shape[i].is_round() ? 0 : lever * lever / c.inertia(i);
+  return lever * lever / inertia;
 }
-double lever_term(const Configuration3& c, std::size_t i, const Vec3& point, const Vec3& n) {
-  return sum(point.cross(n).cwiseAbs2().cwiseQuotient(c.inertia(i)));
+double lever_term(const Vec3& inertia, const Vec3& point, const Vec3& n) {
+  return sum(point.cross(n).cwiseAbs2().cwiseQuotient(inertia));
 }
 
 /// The projected area of an ellipsoid along n is π times this; the mean over all n is a quarter of the surface.
@@ -57,15 +57,19 @@ void HardFluid::Averages::add(const Averages& other, double weight) {
 template <int Dim>
 HardFluid::Averages HardFluid::averages_of(const Configuration<Dim>& c, std::size_t i) {
   static const std::vector<Vec<Dim>> normals = directions<Dim>();
+  const bool is_round = c.shape[i].is_round();  // then all directions say the same
+  const std::size_t count = is_round ? 1 : normals.size();
   const Vec<Dim> axes = semi_axes_of(c.shape[i]);
-  const double weight = 1.0 / static_cast<double>(normals.size());
+  const auto inertia = c.inertia(i);
+  const double weight = 1.0 / static_cast<double>(count);
   Averages one;
-  for (const Vec<Dim>& n : normals) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec<Dim>& n = normals[k];
     const double h = norm(axes.cwiseProduct(n));
     const Vec<Dim> point = axes.cwiseAbs2().cwiseProduct(n) / h;
     one.support += weight * h;
     one.boundary += weight * boundary_term(axes, n);
-    one.inverse_mass += weight * (1 / c.mass[i] + lever_term(c, i, point, n));
+    one.inverse_mass += weight * (1 / c.mass[i] + (is_round ? 0 : lever_term(inertia, point, n)));
   }
   one.size = Dim == 2 ? pi * prod(axes) : 4 * pi / 3 * prod(axes);
   one.squared_support = one.support * one.support;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <numbers>
 
 #include "analysis/structure/voronoi.h"
+#include "core/parallel.h"
 
 namespace vitrel {
 
@@ -39,11 +39,19 @@ double nearest_distance(const Vec2& lengths, const Vec2& from, const Vec2& to) {
   return away.cwiseMin((lengths - away).cwiseAbs()).norm();
 }
 
+/// exp(6iα) of a vector in the direction α.
+std::complex<double> sixfold(const Vec2& along) {
+  const double length = along.norm();
+  const std::complex<double> unit{along.x() / length, along.y() / length};
+  const std::complex<double> cube = unit * unit * unit;
+  return cube * cube;
+}
+
 std::complex<double> hexatic_order(const VoronoiCell& cell) {
   std::complex<double> sum = 0;
   double perimeter = 0;
   for (const VoronoiEdge& edge : cell.edges) {
-    sum += std::polar(edge.length, 6 * polar_angle(edge.to.y(), edge.to.x()));
+    sum += edge.length * sixfold(edge.to);
     perimeter += edge.length;
   }
   return sum / perimeter;
@@ -146,25 +154,26 @@ double correlation_length(const NematicCorrelation& correlation) {
   return 0;
 }
 
-HexaticOrder hexatic_order(const Configuration2& configuration) {
+std::vector<std::complex<double>> local_hexatic_orders(const Configuration2& configuration,
+                                                       int threads) {
   const Voronoi voronoi(configuration);
+  std::vector<std::complex<double>> orders(configuration.size());
+  each_in_parallel(orders.size(), threads, [&](std::size_t k) {
+    const std::uint32_t i = voronoi.order()[k];
+    orders[i] = hexatic_order(voronoi.cell(i));
+  });
+  return orders;
+}
+
+HexaticOrder hexatic_order(const Configuration2& configuration, int threads) {
   std::complex<double> sum = 0;
   double magnitudes = 0;
-  for (const std::uint32_t i : voronoi.order()) {
-    const std::complex<double> local = hexatic_order(voronoi.cell(i));
-    sum += local;
-    magnitudes += std::abs(local);
+  for (const std::complex<double>& order : local_hexatic_orders(configuration, threads)) {
+    sum += order;
+    magnitudes += std::abs(order);
   }
   const double n = static_cast<double>(configuration.size());
   return {std::abs(sum) / n, magnitudes / n};
-}
-
-std::vector<double> local_hexatic_orders(const Configuration2& configuration) {
-  const Voronoi voronoi(configuration);
-  std::vector<double> orders(configuration.size());
-  for (const std::uint32_t i : voronoi.order())
-    orders[i] = std::abs(hexatic_order(voronoi.cell(i)));
-  return orders;
 }
 
 }  // namespace vitrel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <vector>
 
@@ -78,8 +79,10 @@ struct HexaticOrder {
   double global;  ///< |⟨ψ_j⟩|: 1 on the triangular lattice, 0 on the square one and in the liquid
   double local;  ///< ⟨|ψ_j|⟩: the same on lattices; well above 0 in every liquid
 };
-HexaticOrder hexatic_order(const Configuration2& configuration);
-/// |ψ_j| of every particle.
-std::vector<double> local_hexatic_orders(const Configuration2& configuration);
+/// The result does not depend on the number of threads.
+HexaticOrder hexatic_order(const Configuration2& configuration, int threads = 1);
+/// ψ_j of every particle.
+std::vector<std::complex<double>> local_hexatic_orders(const Configuration2& configuration,
+                                                       int threads = 1);
 
 }  // namespace vitrel

@@ -31,6 +31,7 @@ namespace {
     h5::File::create(path).close();
   } catch (const FileError& error) {
     std::cerr << error.what() << '\n';
+    std::filesystem::remove(path);
     std::exit(3);
   }
   std::exit(0);
@@ -43,7 +44,6 @@ TEST(RefusedDriver, IsOneMessageThatNamesTheFileAndTheVersionOfHdf5) {
       std::filesystem::path(testing::TempDir()) / ("refused_" + std::to_string(getpid()) + ".h5");
   EXPECT_EXIT(create_without_driver(path), testing::ExitedWithCode(3),
               "refused_.*h5: HDF5 refuses vitrel's file driver .*version: [0-9]+");
-  std::filesystem::remove(path);
 }
 
 }  // namespace

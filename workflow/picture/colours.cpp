@@ -9,6 +9,7 @@
 #include "analysis/structure/order.h"
 #include "core/error.h"
 #include "core/io/suggestion.h"
+#include "core/parallel.h"
 #include "core/state/figure_axis.h"
 
 namespace vitrel {
@@ -140,7 +141,9 @@ std::vector<Colour> particle_colours(const Configuration<Dim>& configuration,
                                 suggestion(colouring, colourings())));
   if constexpr (Dim == 2) {
     scale = {0, 1};
-    return sequential_colours(local_hexatic_orders(configuration), *scale);
+    const auto orders = local_hexatic_orders(configuration, all_cores);
+    return colours_of_all(configuration,
+                          [&](std::size_t i) { return sequential_colour(std::abs(orders[i])); });
   } else {
     throw UserError("the colours of psi6 are for two dimensions");
   }

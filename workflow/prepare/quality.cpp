@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/io/number_text.h"
+#include "core/parallel.h"
 #include "core/special_values.h"
 
 namespace vitrel {
@@ -185,7 +186,7 @@ std::optional<Quality> measure_quality(const Preparation<2>& preparation,
   quality.nematic_order = nematic_order(state);
   if (parameters.quality_sweeps > 0)
     quality.nematic_correlation = nematic_correlation(state, bin_width * unit_length(state));
-  quality.hexatic_order = hexatic_order(state);
+  quality.hexatic_order = hexatic_order(state, all_cores);
   return quality;
 }
 
