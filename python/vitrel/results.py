@@ -1,5 +1,6 @@
 """Tables of results: arrays with errors and units, and the charts that show them."""
 
+import difflib
 import functools
 import html
 import json
@@ -72,6 +73,9 @@ class _ByName(Mapping[str, _Item]):
         self._items: Dict[str, _Item] = {item.name: item for item in items}
 
     def __getitem__(self, name: str) -> _Item:
+        if name not in self._items:
+            near = difflib.get_close_matches(str(name), self, n=1)
+            raise KeyError(f"{name!r} is none of {', '.join(self)}" + (f"; did you mean {near[0]!r}?" if near else ""))
         return self._items[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -143,9 +147,13 @@ class Table(_ByName[Column]):
         """
         names = list(self)
         columns = columns or tuple(names[1:2])
-        chart = next((chart for name in columns for chart in charts(self, name)), None)
+        found = {name: of_column[0] for name in columns if (of_column := charts(self, name))}
+        chart = next(iter(found.values()), None)
         if chart is None:
             chart = Chart(self, {"symbol": columns[0] if len(columns) == 1 else "", "x": names[0], "xSymbol": names[0]}, {})
+        elif not chart.labels.keys() >= set(columns):  # columns of several charts: each is named by the symbol of its own
+            chart = Chart(self, {**chart.description, "symbol": ""},
+                          {name: found[name].description["symbol"] if name in found else name for name in columns})
         if x is not None:
             chart = Chart(self, {**chart.description, "x": x, "xSymbol": x, "logX": False}, chart.labels)
         return chart.plot(axes, columns, **style)
@@ -192,12 +200,13 @@ class Chart:
             if label_of_all is not None:
                 label = label_of_all if len(curves) == 1 else f"{label_of_all}, {label}"
             axes.errorbar(numpy.asarray(x.texts if x.labels else x.value)[rows], column.value[rows],
-                          yerr=None if column.error is None else column.error[rows], label=label,
+                          yerr=None if column.error is None else numpy.nan_to_num(column.error[rows], posinf=0), label=label,
                           **{"marker": "o", "markersize": 3, "linewidth": 1, **style})
         for level in self.description.get("levels", []):
             axes.axhline(level, color="0.6", linewidth=0.8, zorder=0)
+        symbol = self.description["symbol"]
         axes.set(xlabel=self._label(self.description["xSymbol"], x.unit),
-                 ylabel=self._label(self.description["symbol"], self.table[columns[0]].unit))
+                 ylabel=self._label(symbol, self.table[columns[0]].unit) if symbol else "")
         self._scale(axes)
         if len(curves) > 1 or label_of_all is not None:
             axes.legend(frameon=False)

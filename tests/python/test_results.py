@@ -92,8 +92,28 @@ def test_a_label_names_the_curve(run):
     axes = run.msd.plot(label="φ = 0.5")
     run.msd.plot(axes, label="again")
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["φ = 0.5", "again"]
-    several = run.orientation_all.plot("l_2", "l_4", label="mine") if "l_4" in run.orientation_all else None
-    assert several is None or all(text.get_text().startswith("mine, ") for text in several.get_legend().get_texts())
+    several = run.orientation_all.plot("l_2", "l_4", label="mine")
+    assert all(text.get_text().startswith("mine, ") for text in several.get_legend().get_texts())
+
+
+def test_columns_of_several_charts_are_named_by_their_symbols(run):
+    axes = run.results["displacements_all"].plot("msd", "msr")
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["⟨|Δr(t)|²⟩", "⟨Δθ(t)²⟩"]
+    assert axes.get_ylabel() == ""
+
+
+@pytest.mark.filterwarnings("error")
+def test_errors_that_are_not_known_are_not_drawn(run):
+    table = vitrel.analysis.structure_factor(run[-1])
+    assert numpy.isnan(table["s"].error).all()  # of one state
+    assert len(table.plot("s").lines) > 0
+
+
+def test_a_wrong_name_comes_with_the_nearest(run):
+    with pytest.raises(KeyError, match="did you mean 'self_scattering_all'"):
+        run.results["self_scattering"]
+    with pytest.raises(KeyError, match="is none of time, msd, "):
+        run.results["displacements_all"][0]
 
 
 def test_units_on_axes_are_those_of_the_run(run, tmp_path):
