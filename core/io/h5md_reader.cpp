@@ -360,11 +360,12 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
       fail("particle " + std::to_string(i) + " has z ≠ 0, but the system is two-dimensional");
     configuration.position[i] = Vec<Dim>(positions[i]);
     require_near_box(frame, i, configuration);
-    const Vec<Dim> image = has_images ? Vec<Dim>(images[i]) : Vec<Dim>(Vec<Dim>::Zero());
-    if (image.cwiseAbs().maxCoeff() > max_box_crossings)
+    std::optional<Shift<Dim>> image = Shift<Dim>(Shift<Dim>::Zero());
+    if (has_images) image = box_crossings<Dim>(Vec<Dim>(images[i]));
+    if (!image)
       fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
            std::to_string(frame));
-    configuration.image[i] = image.template cast<std::int32_t>();
+    configuration.image[i] = *image;
     configuration.box.wrap_if_outside(configuration.position[i], configuration.image[i]);
   }
 }

@@ -256,6 +256,30 @@ TEST_F(Import, ContentTellsTheFormat) {
   EXPECT_EQ(report(text("8", "# a remark\n" + std::string(small_csv)), known).at("format"), "CSV");
 }
 
+// A conversion of other numbers is undefined, or silently another place.
+TEST_F(Import, BoxCrossingsAreWholeNumbers) {
+  KnownSystem plane;
+  plane.dimension = 2;
+  for (const double wrong : {0.5, 1e18}) {
+    const auto with_images = [&](h5::Group& particles) {
+      two_disks(particles);
+      add_series(particles, "image", {2, 2}, 2, {0, 0, 0, 0, 0, wrong, 0, 0});
+    };
+    const std::filesystem::path files[] = {
+        h5md("a.h5", with_images),
+        text("a.csv", fmt::format("x,y,image_x,image_y,radius,box_x,box_y\n"
+                                  "-3,0,0,{},1,10,10\n3,0,0,0,1,10,10\n",
+                                  wrong)),
+        text("a.dump", dump_frame(0, "x y z radius ix iy iz",
+                                  fmt::format("0 1 3 1 0 {} 0\n3 3 9 1 0 0 0\n", wrong))),
+        text("a.data",
+             fmt::format("title\n2 atoms\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\nAtoms # sphere\n\n"
+                         "2 1 1.0 1.0 1 2 3 0 {} 0\n1 1 1.0 1.0 4 5 6 0 0 0\n",
+                         wrong))};
+    for (const auto& path : files) EXPECT_THAT(refusal(path, plane), HasSubstr("image"));
+  }
+}
+
 // The same two particles, exchanged in the second frame.
 TEST_F(Import, EveryFormatFollowsIds) {
   const auto shuffled_h5md = [](h5::Group& particles) {

@@ -311,9 +311,9 @@ class GsdFrames final : public ForeignFrames {
   void set_images(ForeignFrame& frame) {
     if (file_.frames() > 1 && !file_.is_in_later_frames("particles/image")) return;
     for (const Vec3& image : vectors("particles/image")) {
-      if (!(image.cwiseAbs().maxCoeff() <= max_box_crossings))
-        fail("particles/image has impossible numbers");
-      frame.image.push_back(image.cast<std::int32_t>());
+      const auto crossings = box_crossings<3>(image);
+      if (!crossings) fail("particles/image has impossible numbers");
+      frame.image.push_back(*crossings);
     }
     if (!frame.image.empty()) return;
     frame.image.assign(particles_, Shift<3>::Zero());

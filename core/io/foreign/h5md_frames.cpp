@@ -271,9 +271,9 @@ class H5mdFrames final : public ForeignFrames {
     frame.id = numbers("id");
     frame.position = vectors("position");
     for (const Vec3& image : vectors("image")) {
-      if (!(image.cwiseAbs().maxCoeff() <= max_box_crossings))
-        throw UserError("image has impossible numbers");
-      frame.image.push_back(image.cast<std::int32_t>());
+      const auto crossings = box_crossings<3>(image);
+      if (!crossings) throw UserError("image has impossible numbers");
+      frame.image.push_back(*crossings);
     }
     frame.angle = numbers("angle");
     for (const auto& q : rows("orientation", 4, 4))

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/geometry/ellipsoid.h"
+#include "core/io/box_crossings.h"
 #include "core/io/foreign/foreign_formats.h"
 #include "core/io/foreign/particle_table.h"
 #include "core/io/foreign/text_lines.h"
@@ -343,8 +344,11 @@ class DataFrames final : public ForeignFrames, LammpsFile {
       frame.id.push_back(id);
       frame.position.push_back(Vec3(&numbers[place("x")]) - bounds_.centre());
       if (count > columns.size()) {
-        const Vec3 image(&numbers[columns.size()]);
-        frame.image.push_back(image.array().round().cast<std::int32_t>());
+        const auto image = box_crossings<3>(Vec3(&numbers[columns.size()]));
+        if (!image)
+          fail(fmt::format("atom {} has the images {:g}, which should be whole numbers of boxes",
+                           id, fmt::join(numbers.end() - 3, numbers.end(), ", ")));
+        frame.image.push_back(*image);
       }
       const double type = numbers[place("type")];
       frame.species.push_back(fmt::format("{:g}", type));

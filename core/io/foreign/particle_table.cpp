@@ -192,10 +192,11 @@ ForeignFrame ParticleTable::frame(const std::string& place) const {
   frame.position = vectors("", directions, order);
   frame.unwrapped = vectors("unwrapped_", directions, order);
   for (const Vec3& image : vectors("image_", directions, order)) {
-    if (!(image.cwiseAbs().maxCoeff() <= max_box_crossings))
-      throw FileError(fmt::format("{}: an image is {}, but should be a few boxes away", place,
-                                  fmt::join(image, ", ")));
-    frame.image.push_back(image.array().round().cast<std::int32_t>());
+    const auto crossings = box_crossings<3>(image);
+    if (!crossings)
+      throw FileError(fmt::format("{}: an image is {}, but should be whole, and a few boxes away",
+                                  place, fmt::join(image, ", ")));
+    frame.image.push_back(*crossings);
   }
   frame.angle = numbers("angle", order);
   const std::vector<double> w = numbers("qw", order);
