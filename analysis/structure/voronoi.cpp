@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/neighbors/spatial_order.h"
 
@@ -27,17 +28,9 @@ Polygon rectangle(const Vec2& lengths, std::size_t i) {
           {{-x, y}, {-2 * x, 0}, i}};
 }
 
-/// Another point, seen from the centre of a cell.
-struct Point {
-  Vec2 at;
-  double squared;  ///< distance
-  std::size_t number;
-};
-
-/// What of a polygon is nearer to the origin than to this point, into `left`. False if that is all of it.
-bool cut(const Polygon& corners, const Point& point, Polygon& left) {
-  const Vec2& to = point.at;
-  const double half = 0.5 * point.squared;
+/// What of a polygon is nearer to the origin than to this neighbour, into `left`. False if that is all of it.
+bool cut(const Polygon& corners, const Vec2& to, std::size_t neighbor, Polygon& left) {
+  const double half = 0.5 * to.squaredNorm();
   const auto excess = [&](const Corner& corner) { return corner.at.dot(to) - half; };
   if (std::ranges::all_of(corners, [&](const Corner& corner) { return excess(corner) <= 0; }))
     return false;
@@ -49,7 +42,7 @@ bool cut(const Polygon& corners, const Point& point, Polygon& left) {
     if (a <= 0) left.push_back(here);
     if ((a <= 0) == (b <= 0)) continue;
     const Vec2 crossing = here.at + a / (a - b) * (next.at - here.at);
-    left.push_back(a <= 0 ? Corner{crossing, to, point.number}
+    left.push_back(a <= 0 ? Corner{crossing, to, neighbor}
                           : Corner{crossing, here.to, here.neighbor});
   }
   return true;
@@ -88,6 +81,36 @@ Voronoi::Voronoi(const Configuration2& configuration)
   }
 }
 
+/// Points of the cell are within half a box length of its centre along each side, and so each has the nearest image of
+/// another centre within a whole one: two images along each side.
+std::vector<Voronoi::Point> Voronoi::all_others(std::size_t place) const {
+  std::vector<Point> others;
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    if (k == place) continue;
+    Vec2 d = centres_[k] - centres_[place];
+    for (int along = 0; along < 2; ++along) d[along] = std::remainder(d[along], lengths_[along]);
+    for (const double x : {d.x(), d.x() - std::copysign(lengths_.x(), d.x())})
+      for (const double y : {d.y(), d.y() - std::copysign(lengths_.y(), d.y())})
+        others.push_back({{x, y}, x * x + y * y, order_[k]});
+  }
+  return others;
+}
+
+std::vector<Voronoi::Point> Voronoi::others_within(double reach, std::size_t place) const {
+  // Of a long and narrow box there are more images within the reach than can matter.
+  const double count = static_cast<double>(order_.size());
+  const double images = count * std::numbers::pi * reach * reach / lengths_.prod();
+  const double boxes = (1 + 2 * reach / lengths_.array()).prod();
+  if (images + boxes > 4 * count) return all_others(place);
+  std::vector<Point> others;
+  centres_.for_each_near(centres_[place], reach,
+                         [&](std::size_t k, const Shift<2>&, const Vec2& d) {
+                           // The nearest own images are the sides of the box; the others cut off nothing.
+                           if (k != place) others.push_back({d, d.squaredNorm(), order_[k]});
+                         });
+  return others;
+}
+
 VoronoiCell Voronoi::cell(std::size_t i) const {
   const std::size_t place = place_[i];
   Polygon corners, left;
@@ -96,17 +119,11 @@ VoronoiCell Voronoi::cell(std::size_t i) const {
   for (double reach = 0, next = reach_; reach < next; next = 2 * std::sqrt(squared)) {
     corners = rectangle(lengths_, i);
     squared = squared_farthest(corners);
-    near.clear();
-    centres_.for_each_near(centres_[place], reach = next,
-                           [&](std::size_t k, const Shift<2>& shift, const Vec2& d) {
-                             // The four nearest own images are the sides of the box.
-                             if (k != place || shift.squaredNorm() > 1)
-                               near.push_back({d, d.squaredNorm(), order_[k]});
-                           });
+    near = others_within(reach = next, place);
     std::ranges::sort(near, {}, &Point::squared);
     for (const Point& point : near) {
       if (point.squared >= 4 * squared) break;
-      if (!cut(corners, point, left)) continue;
+      if (!cut(corners, point.at, point.number, left)) continue;
       corners.swap(left);
       squared = squared_farthest(corners);
     }

@@ -40,6 +40,16 @@ class Voronoi {
   const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
+  /// Another centre, seen from that of a cell.
+  struct Point {
+    Vec2 at;
+    double squared;  ///< distance
+    std::size_t number;
+  };
+
+  std::vector<Point> others_within(double reach, std::size_t place) const;
+  std::vector<Point> all_others(std::size_t place) const;
+
   Vec2 lengths_;
   std::vector<std::uint32_t> order_, place_;  // of every particle in that order
   double reach_;                              // within which the neighbours usually are

@@ -106,10 +106,11 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Boxes,
                                          std::pair<std::size_t, Vec2>{3, {1, 1}},
                                          std::pair<std::size_t, Vec2>{8, {1, 4}},
                                          std::pair<std::size_t, Vec2>{40, {10, 1}},
+                                         std::pair<std::size_t, Vec2>{5, {1, 1000}},
                                          std::pair<std::size_t, Vec2>{500, {20, 20}}));
 
 TEST(Voronoi, AgreesWithTheSlowConstruction) {
-  for (const Vec2& lengths : {Vec2(1, 1), Vec2(1, 4), Vec2(2, 1.3)})
+  for (const Vec2& lengths : {Vec2(1, 1), Vec2(1, 4), Vec2(2, 1.3), Vec2(12, 1)})
     for (const std::size_t n : {2u, 3u, 8u}) {
       const Configuration2 c = gas(n, lengths, 5);
       const std::vector<VoronoiCell> cells = cells_of(c);
@@ -135,6 +136,15 @@ TEST(Voronoi, AClusterInAVoidFillsTheBox) {
   double area = 0;
   for (const VoronoiCell& cell : cells_of(c)) area += cell.area;
   EXPECT_NEAR(area, 1e4, 1e-8);
+}
+
+// In a box that is long and narrow, the reach of a cell holds many images, few of which matter.
+TEST(Voronoi, OfALongAndNarrowBox) {
+  for (const Vec2& lengths : {Vec2(1e12, 1), Vec2(1, 1e12)}) {
+    double area = 0;
+    for (const VoronoiCell& cell : cells_of(gas(12, lengths, 4))) area += cell.area;
+    EXPECT_NEAR(area, lengths.prod(), 1e-9 * lengths.prod());
+  }
 }
 
 // Poisson points: the mean perimeter is 4/√ρ (Meijering 1953). The standard error is taken from
