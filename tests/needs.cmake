@@ -18,8 +18,8 @@ if(NOT EXISTS /usr/share/javascript/mathjax)
 endif()
 
 find_package(Python3 3.11 QUIET COMPONENTS Interpreter)
-set(modules ase furo gsd h5py matplotlib MDAnalysis mypy myst_parser numpy numpydoc pandas pytest sphinx
-    sphinx_copybutton vtk)
+set(modules ase furo gsd h5py ipykernel matplotlib MDAnalysis mypy myst_parser nbclient numpy numpydoc pandas pytest
+    sphinx sphinx_copybutton tqdm vtk)
 if(Python3_Interpreter_FOUND)
   # -P: folders of the build are no modules.
   execute_process(

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
@@ -44,9 +43,9 @@ SweepRequest request_of(const SweepOptions& options) {
 }
 
 int export_workflow(const SweepOptions& options) {
-  const auto to = std::ranges::find(sweep_exports(), options.export_as, &SweepExport::name);
-  export_sweep(request_of(options), *to);
-  remark(options.print, fmt::format("{}: in this folder, {}", options.output.string(), to->use));
+  const SweepExport& to = sweep_export(options.export_as);
+  export_sweep(request_of(options), to);
+  remark(options.print, fmt::format("{}: in this folder, {}", options.output.string(), to.use));
   return success;
 }
 

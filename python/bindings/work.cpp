@@ -11,6 +11,7 @@
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/run.h"
 #include "workflow/sweep/sweep.h"
+#include "workflow/sweep/sweep_export.h"
 
 namespace vitrel::python {
 namespace {
@@ -130,6 +131,17 @@ py::tuple sweep_folder(const std::filesystem::path& file, const std::vector<std:
   return py::make_tuple(outcome.done, outcome.failed);
 }
 
+/// What runs the jobs, in the folder.
+std::string exported_sweep(const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides,
+                           const std::filesystem::path& folder,
+                           const std::filesystem::path& program, int parallel,
+                           const std::string& name) {
+  const SweepExport& to = sweep_export(name);
+  export_sweep({{file, overrides}, folder, program, parallel}, to);
+  return to.use;
+}
+
 }  // namespace
 
 void bind_work(py::module_& module) {
@@ -140,6 +152,8 @@ void bind_work(py::module_& module) {
              py::arg("see"));
   module.def("sweep", &sweep_folder, py::arg("file"), py::arg("overrides"), py::arg("folder"),
              py::arg("program"), py::arg("parallel"), py::arg("say"), py::arg("show"));
+  module.def("export_sweep", &exported_sweep, py::arg("file"), py::arg("overrides"),
+             py::arg("folder"), py::arg("program"), py::arg("parallel"), py::arg("name"));
 }
 
 }  // namespace vitrel::python

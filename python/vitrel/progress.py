@@ -2,6 +2,7 @@
 
 import importlib
 import sys
+import warnings
 from typing import Any, Callable, Optional, TextIO, Tuple, Union
 
 
@@ -59,7 +60,8 @@ def listener(quiet: bool) -> Tuple[Optional[Callable[[str], None]], Optional[Cal
         return None, None, _Nothing()
     shown: Union[_Bar, _Line]
     try:
-        shown = _Bar(importlib.import_module("tqdm.auto").tqdm, sys.stderr)
+        with warnings.catch_warnings(action="ignore"):  # that a notebook without ipywidgets gets a bar of text
+            shown = _Bar(importlib.import_module("tqdm.auto").tqdm, sys.stderr)
     except ImportError:
         shown = _Line(sys.stderr)
     return shown.say, shown.show, shown

@@ -233,7 +233,7 @@ class Chart:
         if scale == "logarithmic":
             axes.set_yscale("log")
         elif scale in ("fromZero", "aroundOne"):
-            axes.set_ylim(bottom=0)
+            axes.set_ylim(bottom=0, auto=True)  # the next curve may be higher
 
 
 def charts(table, column=None):

@@ -7,7 +7,7 @@ import os
 import pathlib
 import shutil
 import sysconfig
-from typing import List, Optional, Unpack
+from typing import List, Literal, Optional, Unpack
 
 from . import _vitrel
 from .progress import listener
@@ -67,8 +67,11 @@ class Sweep(Page):
 
 
 def sweep(file: Optional[Path] = None, *, output: Path, parallel: Optional[int] = None, program: Optional[Path] = None,
-          quiet: bool = False, **settings: Unpack[SweepSettings]) -> Sweep:
+          quiet: bool = False, export: Optional[Literal["slurm", "snakemake"]] = None,
+          **settings: Unpack[SweepSettings]) -> Sweep:
     """Prepares, runs and analyses all jobs of a sweep; what is complete is left alone, and what was cut off continues.
+
+    Or writes a folder whose jobs a cluster runs: `load_sweep` then reads what is there.
 
     Parameters
     ----------
@@ -77,10 +80,12 @@ def sweep(file: Optional[Path] = None, *, output: Path, parallel: Optional[int] 
     output : path
         The folder, with a folder in it for each job.
     parallel : int, optional
-        Jobs at a time; by default as many as there are processors.
+        Jobs at a time; by default as many as there are processors, or as the cluster lets run.
     program : path, optional
         The program `vitrel`, which works on the jobs; by default the one that was installed with the package, or
         that the shell would find.
+    export : str, optional
+        Runs nothing, and writes `job_array.sh` for Slurm's `sbatch`, or a `Snakefile` instead.
     **settings
         Keys of the parameter file (`vitrel.settings.SweepSettings`): those of `[sweep]` (`vitrel.parameters.Sweep`), and
         all of `vitrel.run`. The keys of `grid` and `together` are keyword arguments of `run`, or keys with dots:
@@ -93,8 +98,13 @@ def sweep(file: Optional[Path] = None, *, output: Path, parallel: Optional[int] 
                                 "program=")
     say, show, end = listener(quiet)
     with contextlib.closing(end), assignments(sweep, settings) as lines:
-        done, failed = _vitrel.sweep("" if file is None else os.fspath(file), lines, os.fspath(output), os.fspath(program),
-                                     parallel or os.cpu_count() or 1, say, show)
+        request = ("" if file is None else os.fspath(file), lines, os.fspath(output), os.fspath(program))
+        if export is not None:
+            use = _vitrel.export_sweep(*request, parallel or 0, export)
+            if not quiet:
+                print(f"{output}: in this folder, {use}")
+            return Sweep(output)
+        done, failed = _vitrel.sweep(*request, parallel or os.cpu_count() or 1, say, show)
     if failed:
         raise RuntimeError(f"{failed} of {done + failed} jobs failed; log.txt in their folders of {output} says why, and the "
                            "same call tries them again")

@@ -21,6 +21,21 @@ def test_results_are_one_table(sweep):
     assert sweep.runs[0].msd.value[-1] > sweep.runs[-1].msd.value[-1]
 
 
+@pytest.mark.parametrize("export, file", [("slurm", "job_array.sh"), ("snakemake", "Snakefile")])
+def test_jobs_of_a_cluster_are_those_of_the_call(sweep, tmp_path, vitrel_program, capsys, export, file):
+    other = vitrel.sweep(output=tmp_path / "cluster", grid=GRID, program=vitrel_program, export=export, prepare__quality_sweeps=0,
+                         **SMALL)
+    assert capsys.readouterr().out.startswith(f"{other.path}: in this folder, s") and (other.path / file).exists()
+    jobs, exported = ({path.parent.name: path.read_bytes() for path in folder.glob("*/parameters.toml")}
+                      for folder in (sweep.path, other.path))
+    assert jobs and jobs == exported
+
+
+def test_a_cluster_of_another_kind_is_refused(tmp_path, vitrel_program):
+    with pytest.raises(vitrel.UserError, match="snakemake or slurm, not to 'slurn'; did you mean 'slurm'"):
+        vitrel.sweep(output=tmp_path / "cluster", grid=GRID, program=vitrel_program, export="slurn", **SMALL)
+
+
 def test_charts_show_one_number_of_every_run(sweep):
     chart = next(chart for chart in sweep.results.charts if "compressibility_factor" in chart.labels)
     assert list(chart.plot().containers[0].lines[0].get_xdata().round(6)) == [0.3, 0.4]

@@ -1,12 +1,14 @@
 #include "workflow/sweep/sweep_export.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/io/json.h"
+#include "core/io/suggestion.h"
 #include "core/io/text_file.h"
 #include "workflow/report/page_parts.h"
 #include "workflow/sweep/export/assets.h"
@@ -100,13 +102,24 @@ std::span<const SweepExport> sweep_exports() {
   return all;
 }
 
+const SweepExport& sweep_export(const std::string& name) {
+  std::vector<std::string> names;
+  for (const SweepExport& to : sweep_exports()) {
+    if (to.name == name) return to;
+    names.emplace_back(to.name);
+  }
+  throw UserError(fmt::format("a sweep is exported to {}, not to '{}'{}", fmt::join(names, " or "),
+                              name, suggestion(name, names)));
+}
+
 void export_sweep(const SweepRequest& request, const SweepExport& to) {
   const std::vector<SweepJob> jobs = sweep_jobs(request.source);
   make_folder(request.folder / "slurm");
   FolderLock lock(request.folder);
   lock.hold_alone();
   for (const SweepJob& job : jobs) write_job_folder(job, request.folder / job.id);
-  write_text(request.folder / "sweep.toml", read_text(request.source.file));
+  const fs::path& file = request.source.file;
+  write_text(request.folder / "sweep.toml", file.empty() ? "" : read_text(file));
   to.write(request, jobs);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "workflow/sweep/sweep.h"
@@ -29,6 +30,8 @@ struct SweepExport {
 
 /// All of them.
 std::span<const SweepExport> sweep_exports();
+/// UserError if there is none of this name.
+const SweepExport& sweep_export(const std::string& name);
 
 /// Makes the folders and writes the sweep. What is in the folder slurm already is left alone. Throws like run_sweep, and
 /// UserError if the request limits the jobs at a time of Snakemake.
