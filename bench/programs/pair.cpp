@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -54,20 +55,33 @@ CollisionCaseOf<Dim> case_of(const Pair<Dim>& pair) {
   return asked;
 }
 
-template <int Dim>
-Answer ask(const MethodOf<Dim>& method, const Pair<Dim>& pair) {
+double ns_per_call(const std::function<void()>& ask) {
   constexpr double seconds = 0.1;
-  PairContact<Dim> found;
   TimedBatches batches(seconds);
-  const auto predict = [&](const Pair<Dim>& alone) { return method.predict(case_of(alone)); };
   while (const std::size_t count = batches.next(std::numeric_limits<std::size_t>::max()))
     batches.run(count, [&] {
-      for (std::size_t k = 0; k < count; ++k) found = first_contact_of_images<Dim>(pair, predict);
+      for (std::size_t k = 0; k < count; ++k) ask();
     });
+  return batches.ns_per_call();
+}
+
+template <int Dim>
+Answer ask(const MethodOf<Dim>& method, const Pair<Dim>& pair) {
+  PairContact<Dim> found;
+  const auto predict = [&](const Pair<Dim>& alone) { return method.predict(case_of(alone)); };
+  const double ns = ns_per_call([&] { found = first_contact_of_images<Dim>(pair, predict); });
   const Prediction<Dim>& prediction = found.prediction;
   const bool is_contact = prediction.outcome == Outcome::contact;
   return {method.name, method.tolerance, prediction.outcome, is_contact ? prediction.time : NAN,
-          batches.ns_per_call()};
+          ns};
+}
+
+/// Whether the bodies overlap at the start.
+template <int Dim>
+Json overlap_json(const Pair<Dim>& pair) {
+  bool found = false;
+  const double ns = ns_per_call([&] { found = overlaps(pair); });
+  return {{"found", found}, {"ns_per_call", ns}};
 }
 
 /// The default method first, whether it is asked for or not.
@@ -111,17 +125,24 @@ std::string rows_text(const std::vector<Answer>& answers) {
   return text;
 }
 
+template <int Dim>
+void answer(const Pair<Dim>& pair, const std::vector<std::string>& names,
+            const OutputOptions& output) {
+  const std::vector<Answer> found = answers(pair, names);
+  if (output.json)
+    print_text(json_text({{"rows", rows_json(found)}, {"overlap", overlap_json(pair)}}, 2) + '\n');
+  else if (!output.quiet)
+    print_text(rows_text(found));
+}
+
 }  // namespace
 
 int pair(const PairMethodsOptions& options, const OutputOptions& output) {
   const PairParameters parameters = parse_pair(options.pair, "pair");
-  const std::vector<Answer> found = parameters.dimension() == 2
-                                        ? answers(pair_of<2>(parameters), options.methods)
-                                        : answers(pair_of<3>(parameters), options.methods);
-  if (output.json)
-    print_text(json_text({{"rows", rows_json(found)}}, 2) + '\n');
-  else if (!output.quiet)
-    print_text(rows_text(found));
+  if (parameters.dimension() == 2)
+    answer(pair_of<2>(parameters), options.methods, output);
+  else
+    answer(pair_of<3>(parameters), options.methods, output);
   return success;
 }
 

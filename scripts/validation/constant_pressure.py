@@ -11,8 +11,7 @@ the mean of all deviations, with 0.1 %: {mean}.
 
 {table}
 
-The shift of φ by the finite size decreases as 1/N or faster: -0.32% of disks and -0.22% of κ = 6 at N = 25, where it is
-at least four times as large as at N = 100 (commit 3c2d7ab). Volumes decorrelate slowly: a volume move is accepted if it
+Volumes decorrelate slowly: a volume move is accepted if it
 creates no overlap, so its step is about 1/(N (Z − 1)) of the volume, which diffuses in such steps across the width of
 its distribution, 1/√(N ∂(φZ)/∂φ). That takes 100 to 1900 sweeps at N = 100. The number of sweeps for a given error is
 independent of N, and small systems are cheap.

@@ -8,7 +8,7 @@ import tempfile
 import textwrap
 import tomllib
 
-from validation.common import PARAMS, ROOT, estimate, expect, output_of, save_charts, settings, summary_of, table
+from validation.common import PARAMS, ROOT, estimate, expect, output_of, save_charts, summary_of, table
 from validation.comparison import toml
 
 TITLE = "The glass"
@@ -55,11 +55,6 @@ class Study:
 
     def status(self):
         return self.vitrel("sweep", self.parameters, "-o", self.folder, "--status")
-
-    def left(self):
-        """How many jobs have no results yet, and how many there are."""
-        jobs = json.loads(self.vitrel("sweep", self.parameters, "-o", self.folder, "--status", "--json"))["jobs"]
-        return sum(job["stage"] != "done" for job in jobs), len(jobs)
 
     def vitrel(self, *words):
         """In the folder of the project, so that what is kept names no path outside of it."""
@@ -152,21 +147,14 @@ def save_study_charts(study, folder):
         save_charts(report, folder, [f"{name}.svg" for name in CHARTS[study.name]])
 
 
-SLOW = "prepare.stage.1.growth_rate=0.001"
-
-
-def save_domains(build, study, folder):
-    """Pictures of states as they are made, coloured by orientation; the last one is made slowly. Its length of orientational
-    correlations.
-    """
+def save_domains(study, folder):
+    """Pictures of states as they are made, coloured by orientation."""
     densities = [phi for phi in (0.60, 0.72, 0.82) if phi in study.densities()] or study.densities()[:3]
-    for name, phi, changes in [*((k, phi, []) for k, phi in enumerate(densities, start=1)), ("slow", densities[len(densities) // 2], [SLOW])]:
+    for k, phi in enumerate(densities, start=1):
         with tempfile.TemporaryDirectory() as scratch:
             state = pathlib.Path(scratch, "state.h5")
-            summary = summary_of(build, "prepare", study.parameters,
-                                 *settings([f"system.packing_fraction={phi}", "prepare.quality_sweeps=1", *changes]), "-o", state)
-            study.vitrel("picture", state, "--width", "440", "-o", folder / f"domains-{name}.png", "-q")
-    return summary["quality"]["nematic_correlation"]["length"]["value"]
+            study.vitrel("prepare", study.parameters, "--set", f"system.packing_fraction={phi}", "-o", state, "-q")
+            study.vitrel("picture", state, "--width", "440", "-o", folder / f"domains-{k}.png", "-q")
 
 
 # ---- text -------------------------------------------------------------------------------------------------
@@ -266,11 +254,6 @@ def ratios(study, which):
     return f"goes from {first} at φ = {low:g} to {last} at {high:g}"
 
 
-def ratio_text(study):
-    """How far apart rotation and translation are at both ends."""
-    return f"τ₂/τ_α {ratios(study, 'alpha')}; with τ_α relative to the cage the ratio {ratios(study, 'cage')}."
-
-
 def answer(study):
     """To the question of the page, in the first paragraph."""
     known = " ".join(filter(None, (order_by(study, law) for law in NAMES)))
@@ -362,20 +345,13 @@ def wrapped(text):
     return "\n\n".join(blocks) + "\n"
 
 
-def left_text(studies):
-    """Nothing if all runs are finished."""
-    left, jobs = (sum(counts) for counts in zip(*(study.left() for study in studies)))
-    return f"{left} of {jobs} runs are not finished yet. " if left else ""
-
-
-def page(liquids, ageing, slow):
+def page(liquids, ageing):
     text = (ROOT / "scripts/validation/glass_page.txt").read_text(encoding="utf-8")
     values = {"ageing": table(["φ", "seed", "t_w", "ξ", "τ_α", "τ₂", "MSD at the end", "MSR at the end"], ageing_rows(ageing)),
               "hours": f"{sum(study.seconds() for study in (*liquids, ageing)) / 3600:.1f}",
               "order": " ".join(filter(None, (order_by(liquids[0], law) for law in NAMES))) or NO_ORDER.capitalize(),
               "answer": answer(liquids[0]),
-              "ratio": ratio_text(liquids[0]), "domains": domains_text(ageing),
-              "slow": f"{slow:.2g}", "left": left_text((*liquids, ageing))}
+              "ratio": ratios(liquids[0], "alpha"), "cage_ratio": ratios(liquids[0], "cage"), "domains": domains_text(ageing)}
     window, stops = stop_rows(ageing)
     values |= {"window": f"{window:g}", "stops": table(["t_w", "rotation stops at φ", "translation stops at φ"], stops)}
     for study, key in zip(liquids, ("ellipses", "disks")):
@@ -386,11 +362,10 @@ def page(liquids, ageing, slow):
     return wrapped(text)
 
 
-def draw(build, liquids, ageing, folder):
-    """All figures; the length of orientational correlations in a state that is made slowly."""
+def draw(liquids, ageing, folder):
     for study in (*liquids, ageing):
         save_study_charts(study, folder / study.name.removeprefix("glass_"))
-    return save_domains(build, ageing, folder / ageing.name.removeprefix("glass_"))
+    save_domains(ageing, folder / ageing.name.removeprefix("glass_"))
 
 
 def studied(build, is_quick):
@@ -406,8 +381,8 @@ def measure(build):
     for study in liquids:
         growth, densest = study.growth("cage")
         expect(growth >= MIN_GROWTH, f"{study.name}: times grow only {growth:.3g}-fold up to {densest}")
-    slow = draw(build, liquids, ageing, FIGURES)
-    PAGE.write_text(page(liquids, ageing, slow), encoding="utf-8")
+    draw(liquids, ageing, FIGURES)
+    PAGE.write_text(page(liquids, ageing), encoding="utf-8")
     return """This command writes [The glass](glass.md), from the results in docs/data/glass and from the jobs that are missing
 there, which it runs. `--status` tells which are; `--quick` goes through the whole chain with fewer particles and densities
 and writes to out/glass."""
@@ -415,8 +390,8 @@ and writes to out/glass."""
 
 def quick(build):
     *liquids, ageing = studied(build, is_quick=True)
-    slow = draw(build, liquids, ageing, QUICK / "figures" / "glass")
-    (QUICK / "glass.md").write_text(page(liquids, ageing, slow), encoding="utf-8")
+    draw(liquids, ageing, QUICK / "figures" / "glass")
+    (QUICK / "glass.md").write_text(page(liquids, ageing), encoding="utf-8")
     return f"{QUICK.relative_to(ROOT)}/glass.md, in {sum(study.seconds() for study in (*liquids, ageing)):.0f} s of runs"
 
 

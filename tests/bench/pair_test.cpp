@@ -83,6 +83,11 @@ TEST_F(BenchPair, ShowsTheDefaultBesideTheMethodsAskedFor) {
   const Json none = rows({"horizon = 0.01\n" + thesis_pair, "--method", "psi_root"});
   EXPECT_EQ(none[1]["outcome"], "no contact");
   EXPECT_TRUE(none[1]["difference"].is_null());
+  const Outcome whole =
+      run(folder_.path(), {"pair", thesis_pair, "--method", "psi_root", "--json"});
+  const Json overlap = Json::parse(whole.output)["overlap"];
+  EXPECT_EQ(overlap["found"], false);
+  EXPECT_GT(overlap["ns_per_call"], 1);
 }
 
 // In a box of 8, the disk of radius 1 that leaves to the right comes back from the left.
