@@ -78,9 +78,25 @@ class Run(Page):
 
     def __init__(self, path, summary: Optional[dict] = None, observed: Optional[Results] = None, imports: Sequence[str] = ()):
         self.path, self.summary, self.observed = pathlib.Path(path), summary or {}, observed
-        self._imports = imports
-        self._frames = _vitrel.Frames(self.path, imports)
+        self._imports = tuple(imports)
+        self._open: Optional[_vitrel.Frames] = _vitrel.Frames(self.path, imports)
         self.imported = dict(self._frames.import_report)
+
+    @property
+    def _frames(self) -> _vitrel.Frames:
+        if self._open is None:
+            raise _vitrel.UserError(f"{self.path} was closed")
+        return self._open
+
+    def close(self) -> None:
+        """Closes the file, as the end of a `with` block does. States that were read stay."""
+        self._open = None
+
+    def __enter__(self) -> "Run":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def __len__(self) -> int:
         return len(self._frames)
@@ -122,7 +138,7 @@ class Run(Page):
             time.sleep(interval)
 
     def __repr__(self) -> str:
-        return f"<Run {self.path}: {len(self)} frames>"
+        return f"<Run {self.path}: {f'{len(self)} frames' if self._open else 'closed'}>"
 
     def __eq__(self, other: object) -> bool:
         """Whether it is the same file, read in the same way."""

@@ -46,6 +46,16 @@ def terminal_of(monkeypatch):
     return terminal
 
 
+def test_a_run_is_its_file(tmp_path):
+    made = vitrel.run(output=tmp_path / "run.h5", duration=1, equilibration=0, quiet=True, **SMALL)
+    with vitrel.load(tmp_path / "run.h5") as run:
+        assert run == made and hash(run) == hash(made) and pickle.loads(pickle.dumps(run)) == made
+        last = run[-1]
+    assert last == made[-1]
+    with pytest.raises(vitrel.UserError, match="run.h5 was closed"):
+        run[0]
+
+
 @pytest.mark.parametrize("has_tqdm", [True, False])
 def test_progress_is_shown(monkeypatch, has_tqdm):
     terminal = terminal_of(monkeypatch)
