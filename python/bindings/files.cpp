@@ -11,10 +11,10 @@ namespace {
 
 /// States of the same particles, in the order of time.
 template <int Dim>
-void write_states(const std::filesystem::path& path, const py::list& states) {
+void write_states(const std::filesystem::path& path, const py::list& states, bool velocities) {
   const auto& first = states[0].cast<const Configuration<Dim>&>();
   TrajectoryWriter writer = TrajectoryWriter::create(
-      path, first, current_provenance("vitrel (Python)", "", 0), {.velocities = true});
+      path, first, current_provenance("vitrel (Python)", "", 0), {.velocities = velocities});
   std::int64_t step = 0;
   for (const py::handle& state : states) {
     if (!py::isinstance<Configuration<Dim>>(state))
@@ -27,10 +27,10 @@ void write_states(const std::filesystem::path& path, const py::list& states) {
   writer.close();
 }
 
-void write_run(const std::filesystem::path& path, const py::list& states) {
+void write_run(const std::filesystem::path& path, const py::list& states, bool velocities) {
   if (states.empty()) throw UserError("there are no states");
-  py::isinstance<Configuration2>(states[0]) ? write_states<2>(path, states)
-                                            : write_states<3>(path, states);
+  py::isinstance<Configuration2>(states[0]) ? write_states<2>(path, states, velocities)
+                                            : write_states<3>(path, states, velocities);
 }
 
 KnownSystem known(const std::vector<std::string>& overrides) {
@@ -71,7 +71,7 @@ void write_film(const std::filesystem::path& input, const std::filesystem::path&
 }  // namespace
 
 void bind_files(py::module_& module) {
-  module.def("write_run", &write_run, py::arg("path"), py::arg("states"));
+  module.def("write_run", &write_run, py::arg("path"), py::arg("states"), py::arg("velocities"));
   module.def(
       "export_formats",
       [](int dimension) {

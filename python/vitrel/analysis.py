@@ -22,6 +22,10 @@ from .states import State
 
 def analyze(states: Iterable[State], **settings: Unpack[AnalysisSettings]) -> Results:
     """All tables that the states have what they need for; `only="structure_factor,order"` chooses some."""
+    return _analyze(states, True, settings)
+
+
+def _analyze(states, velocities, settings) -> Results:
     states = [states] if isinstance(states, State) else list(states)
     if not states:
         raise _vitrel.UserError("there are no states")
@@ -30,14 +34,14 @@ def analyze(states: Iterable[State], **settings: Unpack[AnalysisSettings]) -> Re
             raise _vitrel.UserError(f"states must be objects of vitrel.State, not {type(state).__name__}")
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "states.h5")
-        _vitrel.write_run(file, [state._state for state in states])
+        _vitrel.write_run(file, [state._state for state in states], velocities)
         with assignments(analyze, settings) as lines:
             text, columns, provenance = _vitrel.analyze(file, lines)
     return Results(json.loads(text), tables_of(columns, states[0].dimension), provenance)
 
 
 def _table(states, name, settings) -> Table:
-    results = analyze(states, only=name, **settings)
+    results = _analyze(states, False, dict(only=name, **settings))
     return results[name if name in results else f"{name}_all"]
 
 
