@@ -1,6 +1,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "analysis/observables/observable.h"
@@ -113,6 +114,10 @@ class CommandLine : public ProgramCommandLine {
             "Simulation of hard anisotropic particles, from the liquid to the glass.", "vitrel") {
     prepare_.command_line = run_.command_line = pair_.command_line = impact_.command_line =
         joined(count, words);
+    const auto end = words + count;
+    const auto called = std::find_if(words + std::min(count, 1), end,
+                                     [](const char* word) { return *word != '-'; });
+    if (called != end) called_ = *called;
     add_prepare();
     add_run();
     add_check();
@@ -146,6 +151,12 @@ class CommandLine : public ProgramCommandLine {
     return sub;
   }
 
+  /// Options take long to make: those of other commands are for texts about all of them.
+  bool needs_options(const CLI::App& command) const {
+    return command.get_name() == called_ || called_ == "help" || called_ == "man" ||
+           called_ == "completion";
+  }
+
   void add_prepare() {
     CLI::App& sub =
         add("prepare", "Make a first state and report how good it is.", prepare_command, prepare_);
@@ -164,6 +175,7 @@ class CommandLine : public ProgramCommandLine {
 
   void add_work(CLI::App& sub, PrepareOptions& options, const std::string& output,
                 const std::string& threads) {
+    if (!needs_options(sub)) return;
     sub.footer(exit_codes + overlap_code + resumed_code + ".");
     add_parameter_file(sub, options.source);
     add_output(sub, options.output, output)->required();
@@ -177,6 +189,7 @@ class CommandLine : public ProgramCommandLine {
   void add_check() {
     CLI::App& sub = add("check", "Exact check of a state or of all frames of a run for overlaps.",
                         check_command, check_);
+    if (!needs_options(sub)) return;
     sub.footer(exit_codes + overlap_code + ", 5 stopped (no overlap so far).");
     add_file(sub, "file", check_.input, "State or run")->required();
     add_import(sub, check_.import);
@@ -190,6 +203,7 @@ class CommandLine : public ProgramCommandLine {
                         "times and the glass transition, from the results of its jobs, or with "
                         "--params or --set from their runs.",
                         analyze_command, analyze_);
+    if (!needs_options(sub)) return;
     sub.footer(exit_codes + stopped_code);
     CLI::Option* run = add_file(sub, "run", analyze_.input, "Run, or folder of a job or a sweep");
     sub.add_flag("--list", analyze_.list, "All tables as Markdown (docs/observables.md)")
@@ -217,6 +231,7 @@ class CommandLine : public ProgramCommandLine {
             "given, a job is a state (a packing) and there is no run. Jobs that differ "
             "in system.seed only are averaged.",
             sweep_command, sweep_);
+    if (!needs_options(sub)) return;
     sub.footer(exit_codes + overlap_code + resumed_code +
                "; of jobs that failed, the first one's.");
     add_parameter_file(sub, sweep_.source);
@@ -249,6 +264,7 @@ class CommandLine : public ProgramCommandLine {
   void add_report() {
     CLI::App& sub = add("report", "One HTML page about a prepared state, a run or a sweep.",
                         report_command, report_);
+    if (!needs_options(sub)) return;
     sub.footer(exit_codes + stopped_code);
     add_file(sub, "run", report_.input, "State, run, or folder of a job or a sweep")->required();
     add_output(sub, report_.output,
@@ -260,6 +276,7 @@ class CommandLine : public ProgramCommandLine {
   void add_export() {
     CLI::App& sub = add("export", "Write a state or a run in the format of another program.",
                         export_command, export_);
+    if (!needs_options(sub)) return;
     sub.footer(exit_codes + stopped_code);
     add_file(sub, "file", export_.input, "State or run")->required();
     add_choice(
@@ -291,6 +308,7 @@ class CommandLine : public ProgramCommandLine {
   void add_picture() {
     CLI::App& sub = add("picture", "Draw a state or a frame of a run, or make a film of a run.",
                         picture_command, picture_);
+    if (!needs_options(sub)) return;
     sub.footer(exit_codes + stopped_code);
     add_file(sub, "file", picture_.input, "State or run")->required();
     add_import(sub, picture_.import);
@@ -343,6 +361,7 @@ class CommandLine : public ProgramCommandLine {
         "Two bodies: overlap, gap, contact time and path of ellipses or ellipsoids, and the "
         "restitution coefficients of soft spheres.",
         {});
+    if (!needs_options(pair)) return;
     pair.require_subcommand(1);
     add_pair_question(pair, "overlap", "Do two bodies overlap? The exact criterion.",
                       pair_overlap_command);
@@ -420,6 +439,7 @@ class CommandLine : public ProgramCommandLine {
   void add_params() {
     CLI::App& sub = add("params", "Print a commented template of a command's parameters.",
                         params_command, params_);
+    if (!needs_options(sub)) return;
     CLI::Option* of = add_choice(sub, "command", params_.command, commands_with_templates(),
                                  "COMMAND", "prepare, run, analyze, sweep or pair");
     CLI::Option* reference = sub.add_flag("--reference", params_.reference,
@@ -435,6 +455,7 @@ class CommandLine : public ProgramCommandLine {
                                   return print(shell_ == "bash" ? bash_completion(description())
                                                                 : zsh_completion(description()));
                                 });
+    if (!needs_options(sub)) return;
     sub.footer(
         "For the running shell: source <(vitrel completion bash). For all, put that line into "
         "~/.bashrc, or into ~/.zshrc with zsh instead of bash, after compinit.");
@@ -452,7 +473,8 @@ class CommandLine : public ProgramCommandLine {
   PairOptions pair_;
   ImpactOptions impact_;
   ParamsOptions params_;
-  std::string shell_;  ///< of `completion`
+  std::string shell_;   ///< of `completion`
+  std::string called_;  ///< the command, if there is one
 };
 
 }  // namespace
