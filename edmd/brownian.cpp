@@ -120,7 +120,7 @@ void split_energy(Configuration<Dim>& configuration, double share) {
 
 }  // namespace
 
-/// Of particles whose spin smooth contacts never change.
+/// Smooth contacts never change the spin of round particles, which is therefore 0.
 template <int Dim>
 void stop_round_particles(Configuration<Dim>& configuration) {
   for (std::size_t i = 0; i < configuration.size(); ++i)

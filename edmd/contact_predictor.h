@@ -12,7 +12,7 @@
 /// @file
 /// The first contact of a particle with its neighbours.
 ///
-/// Of every pair of neighbours (i, j), one has predicted an event no later than their first contact. A prediction for i
+/// In every pair of neighbours (i, j), one has predicted an event no later than their first contact. A prediction for i
 /// therefore never searches beyond the time up to which the contacts of j are known. A predicted contact whose partner
 /// has changed its motion in the meantime is stale: when its time comes, the particle is predicted again.
 namespace vitrel {

@@ -37,7 +37,7 @@ struct SimulationState {
   static constexpr bool has_cells = is_round && !grows<B>;
 
   using Particle = FlightRecord<B>;
-  /// Of a sphere at a time; other bodies have theirs in the record.
+  /// The rotation of a sphere at a time; other bodies have theirs in the record.
   struct Rotation {
     Orientation<dimension> orientation;
     AngularVelocity<dimension> angular_velocity;

@@ -182,7 +182,7 @@ void SimulationState<B>::begin_flux() {
     flux.add_particle(1 / type(i).inertia.inverse_mass, particles[i].velocity);
 }
 
-// Of a sphere.
+// A sphere turns at a constant angular velocity.
 template <Body B>
 typename SimulationState<B>::Rotation SimulationState<B>::rotation_now(Index i) const {
   const auto& [orientation, angular_velocity, time] = rotations[i];
@@ -191,7 +191,7 @@ typename SimulationState<B>::Rotation SimulationState<B>::rotation_now(Index i) 
   return {orientation_of(advanced(pose, motion, now - time)), angular_velocity, now};
 }
 
-// Of a spheroid the record holds L/I⊥ (ellipsoid.h), which is not its angular velocity if it spins.
+// The record of a spheroid holds L/I⊥ (ellipsoid.h), which is not its angular velocity if it spins.
 template <Body B>
 auto SimulationState<B>::full_motion(Index i) const -> Motion<dimension> {
   Motion<dimension> motion = particles[i].motion();
@@ -218,7 +218,7 @@ auto SimulationState<B>::full_inertia_now(Index i) const -> Inertia<dimension> {
   return in_space(own, particles[i].pose(), 1);
 }
 
-// Of a spheroid with the part along its axis multiplied by I⊥/I∥, or divided.
+// The angular velocity of a spheroid with the part along its axis multiplied by I⊥/I∥, or divided.
 template <Body B>
 auto SimulationState<B>::with_scaled_spin(Index i, const Vector& angular_velocity,
                                           bool to_true) const -> Vector

@@ -13,7 +13,7 @@ namespace vitrel {
 
 namespace {
 
-// Of twice the window.
+// The largest value of twice the window.
 constexpr double max_width = 0.75;
 constexpr double pairs_per_particle = 1.5;
 

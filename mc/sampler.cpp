@@ -88,7 +88,7 @@ void Sampler<Dim>::sweep_domain(std::size_t domain, Tally& tally) {
   }
 }
 
-/// Of a translation or rotation, each component between −1 and 1, symmetric about 0.
+/// The direction and share of a translation or rotation: each component is between −1 and 1, symmetric about 0.
 template <int Dim>
 Vec<Dim> Sampler<Dim>::step(const Words& words) const {
   if constexpr (Dim == 2)

@@ -12,7 +12,7 @@ namespace vitrel {
 struct AgedMotion {
   double waiting_time;   ///< of the frame, since the first one
   Displacements motion;  ///< from this frame alone to all later ones
-  /// Of this frame (correlation_length in order.h); NaN in space, and without rotors.
+  /// The length of domains in this frame (correlation_length in order.h); NaN in space, and without rotors.
   double nematic_length;
 };
 

@@ -35,7 +35,7 @@ double mean_of(const CorrelationSum& sum, std::size_t particles) {
 /// What blocks of two time differences show of the correlations (1 − s/lag)².
 constexpr double seen_of_diffusion = 7.0 / 8;
 
-/// Of a series of origins that have the correlations of diffusion.
+/// The mean over a series of origins that have the correlations of diffusion.
 Estimate over_origins(std::span<const double> series, const Lag& lag) {
   const Estimate plateau = block_average(series, lag.shortest_block());
   const auto two_lags = static_cast<std::size_t>(std::ceil(lag.shortest_block() / 2));

@@ -70,10 +70,10 @@ class CorrelationSum {
   /// The same of the origins begin … end − 1 alone, without particles to compare.
   CorrelationSum of_origins(std::size_t begin, std::size_t end) const;
   PointEstimate estimate(const Lag& lag, std::size_t particles) const;
-  /// Of an x that decays, and is remembered for no longer than it takes to: where the time difference is too long for
-  /// blocks of four, these are as long as the series itself asks for (slow_average in blocking.h).
+  /// The estimate for an x that decays and is remembered for no longer than that takes: where the time difference is
+  /// too long for blocks of four, these are as long as the series itself asks for (slow_average in blocking.h).
   PointEstimate estimate_of_decay(const Lag& lag, std::size_t particles) const;
-  /// Of x that is remembered for longer than the time difference: blocks with a plateau only.
+  /// The estimate for an x that is remembered for longer than the time difference: blocks with a plateau only.
   PointEstimate estimate_with_plateau(const Lag& lag, std::size_t particles) const;
 
  private:

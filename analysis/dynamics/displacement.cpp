@@ -79,7 +79,7 @@ class Pass {
     for (std::size_t begin = 0; begin < first_.size(); begin += batch)
       add_batch(begin, std::min(begin + batch, first_.size()));
   }
-  /// Of any particle between two frames.
+  /// The largest turn of any particle between two frames.
   double largest_turn() const { return largest_turn_; }
 
  private:

@@ -30,7 +30,7 @@ struct DisplacementGroup {
   // The rest is that of the rotors, and empty without any.
   Correlation parallel;       ///< ⟨(Δr·u)²⟩, u along the axis (path.h) at the origin of time
   Correlation perpendicular;  ///< ⟨|Δr|² − (Δr·u)²⟩
-  // Of turns; empty where these are not known (Displacements::unknown_turns).
+  // The correlations of turns are empty where these are not known (Displacements::unknown_turns).
   Correlation rotation;          ///< ⟨|Δφ|²⟩, the mean squared rotation (MSR)
   Correlation quartic_rotation;  ///< ⟨|Δφ|⁴⟩
   Correlation

@@ -74,7 +74,7 @@ BlockError without_student(const Estimate& estimate) {
   return {estimate.error / student_factor(estimate.blocks - 1), estimate.blocks};
 }
 
-/// Of the mean of what a line leaves of a series, whose correlations decay in `correlation` steps: by
+/// The error of the mean of what a line leaves of a series whose correlations decay in `correlation` steps: by
 /// blocking, where that reaches a plateau; else from blocks of the smallest length. There the line takes a
 /// degree of freedom.
 BlockError error_of_residual(const std::vector<double>& residual, double shortest_block,

@@ -97,7 +97,7 @@ class MultipleTau final : public Observer<Dim> {
  private:
   static constexpr std::size_t rotations = Path<Dim>::rotations;
 
-  /// Of all particles, in the order of `order_`.
+  /// A sample of all particles, in the order of `order_`.
   struct Sample {
     std::array<std::vector<double>, Dim> position;
     std::array<std::vector<double>, rotations> turn;

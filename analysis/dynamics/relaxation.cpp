@@ -98,7 +98,7 @@ Decay connected_part(const Decay& correlation, const Estimate& plateau) {
   const double rest = 1 - plateau.mean;
   for (std::size_t k = 0; k < result.value.size(); ++k) {
     result.value[k] = (correlation.value[k] - plateau.mean) / rest;
-    // Of (C − P)/(1 − P) with respect to P: (1 − C)/(1 − P)².
+    // The derivative of (C − P)/(1 − P) with respect to P is −(1 − C)/(1 − P)².
     const double of_plateau = plateau.error * (1 - correlation.value[k]) / rest;
     result.error[k] = std::hypot(correlation.error[k], of_plateau) / rest;
   }

@@ -10,7 +10,7 @@ namespace vitrel {
 namespace {
 
 constexpr std::size_t max_pairs = std::size_t{1} << 22;
-/// Of single precision, relative.
+/// The relative rounding error of single precision.
 constexpr double single_precision = 0x1p-24;
 /// The most that time differences taken as equal may differ by, relative.
 constexpr double widest = 1e-3;
@@ -71,7 +71,7 @@ std::vector<Difference> first_differences(std::span<const double> times, std::si
   return found;
 }
 
-/// Of every step of time the difference that most pairs have, ascending.
+/// For every step of time the difference that most pairs have, ascending.
 std::vector<Difference> common_differences(const std::vector<Difference>& sorted,
                                            std::size_t steps_per_decade) {
   std::vector<Difference> chosen;

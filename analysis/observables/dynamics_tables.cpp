@@ -54,7 +54,7 @@ Chart correlation(const char* heading, const char* symbol, std::vector<Curve> cu
   return chart;
 }
 
-/// Of scattering functions, numbered like the wave numbers in this column.
+/// A chart of scattering functions, which are numbered like the wave numbers in this column.
 Chart at_wave_numbers(Chart chart, const char* column = "q") {
   chart.numbers = {"wave_numbers", column, "q"};
   return chart;

@@ -80,7 +80,7 @@ class SpaceOrder final : public FrameObservable<3> {
   void add_order(OrderSeries& order) const override { order.nematic = nematic_; }
 
  private:
-  /// Of the two directions the one nearer to that of the frame before.
+  /// Takes that of the two directions which is nearer to the one of the frame before.
   void follow(Vec3 director) {
     if (director.dot(before_) < 0) director = -director;
     for (std::size_t k = 0; k < 3; ++k) director_[k].push_back(director[static_cast<int>(k)]);

@@ -12,7 +12,7 @@ namespace vitrel {
 
 namespace {
 
-/// Of the angles from the director: about 2° each, one of them in the middle around it.
+/// Bins of the angles from the director have about 2° each; one of them has the director in its middle.
 constexpr std::size_t angle_bins = 91;
 
 /// In the plane: the density of the angles from the director.

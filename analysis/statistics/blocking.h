@@ -52,7 +52,7 @@ double seen_of_exponential(std::size_t block, double correlation);
 /// compared with (1 + b)/e.
 std::size_t correlation_steps(std::span<const double> series);
 
-/// Of a series that may be slow: by blocking, or if that sees no plateau, from blocks of twice the
+/// The mean of a series that may be slow: by blocking, or if that sees no plateau, from blocks of twice the
 /// correlation time of the series itself, for which sixteen correlation times are enough. The error
 /// covers the truth in 64 % of the cases then, instead of 68 (measured). No blocks are shorter than `shortest_block`:
 /// of a series whose noise hides what another one shows to be slow.

@@ -60,7 +60,7 @@ void add_splines(double* grid, double weight, const std::array<SplineValues, Dim
   }
 }
 
-/// Of the axes but the last the next numbers from −most to most, the last of them fastest; false after
+/// Goes on to the next numbers, from −most to most, of all axes but the last one, the last of them fastest; false after
 /// the last.
 template <std::size_t Dim>
 bool advance(std::array<int, Dim>& n, const std::array<int, Dim>& most) {

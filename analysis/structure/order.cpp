@@ -128,7 +128,7 @@ NematicCorrelation nematic_correlation(const Configuration2& configuration, doub
   for (std::size_t i = 0; i < rotors.size(); i += stride)
     for (std::size_t j = 0; j < rotors.size(); ++j) {
       const double at = scale * nearest_distance(lengths, rotors[i].position, rotors[j].position);
-      // Of two origins, the first counts the pair.
+      // The first of two origins counts the pair.
       if (!(at < static_cast<double>(bins)) || j == i || (j < i && j % stride == 0)) continue;
       const auto bin = static_cast<std::size_t>(at);
       sum[bin] += rotors[i].director.dot(rotors[j].director);

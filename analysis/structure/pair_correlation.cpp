@@ -121,7 +121,7 @@ class SortedPoints {
     return cell >= 0 ? cell / count_[k] : -((count_[k] - 1 - cell) / count_[k]);
   }
 
-  // Of the cells that begin at `start`, those within reach along the axes up to K. `offset`, added to a
+  // Visits those of the cells from `start` on that are within reach along the axes up to K. `offset`, added to a
   // position, gives the separation.
   template <int K, class Visit>
   void visit_cells(std::size_t i, double squared_reach, std::int64_t start, Vec<Dim> offset,
@@ -206,7 +206,7 @@ class SpeciesPairs {
   }
 
   bool is_mixture() const { return !found_.empty(); }
-  /// Of pair A B in this bin, as met in this order.
+  /// How many pairs of the groups a and b were met in this bin, in this order.
   double& found(std::size_t a, std::size_t b, std::size_t bin) {
     return found_[(a * members_.size() + b) * (bins_.count() + 1) + bin];
   }

@@ -41,7 +41,7 @@ struct StructureFactor {
 /// direction every 2nd, 4th … along the sides that are not much shorter than the longest. With the default
 /// shells there are never more than about 10⁵, in however large a box.
 ///
-/// Of few particles direct sums over the same wave vectors are taken, which are exact up to rounding.
+/// With few particles, direct sums over the same wave vectors are taken, which are exact up to rounding.
 ///
 /// Errors: each ρ_α(q) is off by at most ε N_α, ε = alias_tolerance, hence S by 2 ε √(N S) + ε² N; in
 /// liquids about ε √S. To be made and destroyed by one thread at a time; else free of state.
@@ -50,7 +50,7 @@ class ScatteringShells {
  public:
   ScatteringShells(const Vec<Dim>& lengths, const ShellOptions& options);
 
-  /// Of a configuration in a box of these lengths: the faster way of the two below.
+  /// The structure factor of a configuration in a box of these lengths, by the faster one of the two ways below.
   StructureFactor structure_factor(const Configuration<Dim>& configuration) const;
   StructureFactor transformed_structure_factor(const Configuration<Dim>& configuration) const;
   StructureFactor direct_structure_factor(const Configuration<Dim>& configuration) const;

@@ -53,7 +53,7 @@ struct TwoPointGrid::Transforms {
     });
   }
 
-  /// Of every shift of the grid, the number of its points that coincide with points of itself times their number.
+  /// Computes for every shift of the grid how many of its points coincide with points of itself, times their number.
   void correlate(double* grid) const {
     const auto out = complex_array(modes);
     fftw_execute_dft_r2c(forward->get(), grid, out.get());

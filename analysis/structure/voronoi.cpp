@@ -97,7 +97,7 @@ std::vector<Voronoi::Point> Voronoi::all_others(std::size_t place) const {
 }
 
 std::vector<Voronoi::Point> Voronoi::others_within(double reach, std::size_t place) const {
-  // Of a long and narrow box there are more images within the reach than can matter.
+  // In a long and narrow box there are more images within the reach than can matter.
   const double count = static_cast<double>(order_.size());
   const double images = count * std::numbers::pi * reach * reach / lengths_.prod();
   const double boxes = (1 + 2 * reach / lengths_.array()).prod();

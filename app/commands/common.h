@@ -35,7 +35,7 @@ std::filesystem::path run_or_sweep(const std::filesystem::path& input);
 /// one of the files that are read.
 void require_output_file(const std::filesystem::path& output,
                          const std::vector<std::filesystem::path>& inputs);
-/// Of a file or folder that must not exist yet: FileError if the folder around it is missing, UserError
+/// Checks a file or folder that must not exist yet: FileError if the folder around it is missing, UserError
 /// if it exists.
 void require_new(const std::filesystem::path& output);
 

@@ -63,7 +63,7 @@ std::string word_cases(const std::string& path, const CommandDescription& comman
                      shell_word(all_names(command.options)), shell_word(offer_of_words(command)));
 }
 
-/// Of a command and all those below it, each by its path, such as vitrel/pair/gap.
+/// What a command and all those below it take, each by its path, such as vitrel/pair/gap.
 struct BashCases {
   std::vector<std::string> parents;
   std::string values, words;

@@ -43,7 +43,7 @@ std::string entry(const OptionDescription& option, bool is_argument) {
   return ".TP\n" + tag + '\n' + line(text);
 }
 
-/// Of a command with this full name.
+/// The usage of a command with this full name.
 std::string usage(const std::string& name, const CommandDescription& command) {
   std::string text = bold(name);
   if (!command.commands.empty()) text += " " + italic("command");
@@ -64,7 +64,7 @@ std::string section(const std::string& name, const CommandDescription& command) 
   return command.footer.empty() ? text : text + ".PP\n" + line(command.footer);
 }
 
-/// Of all commands below the one of this full name.
+/// The sections of all commands below the one of this full name.
 std::string sections(const std::string& name, const CommandDescription& parent) {
   std::string text;
   for (const CommandDescription& command : parent.commands) {

@@ -43,7 +43,7 @@ inline const CLI::Validator not_empty = {[](const std::string& text) {
                                          },
                                          ""};
 
-/// Of a seed: TOML has no greater numbers.
+/// The number of a seed: TOML has no greater numbers.
 inline const CLI::Validator seed_number = {
     [](const std::string& text) {
       std::int64_t number = 0;

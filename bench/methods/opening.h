@@ -21,7 +21,7 @@ Shape body_at(const Flight<Growing<Shape>>& flight, double time) {
   return scaled(flight.body.shape, std::max(flight.body.size_at(time), smallest_size));
 }
 
-/// Of body 0 or 1.
+/// The pose of body 0 or 1.
 Pose2 pose_at(const CollisionCase& asked, int body, double time);
 Pose3 pose_at(const EllipsoidCase& asked, int body, double time);
 

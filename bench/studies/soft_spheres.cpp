@@ -68,7 +68,7 @@ Configuration3 crystal(const Shift<3>& sites, double packing_fraction, std::uint
   return c;
 }
 
-/// Of one particle between collisions, roughly (Boltzmann): 1/(√2 n π σ² ⟨v⟩).
+/// The mean time of one particle between collisions, roughly (Boltzmann): 1/(√2 n π σ² ⟨v⟩).
 double mean_free_time(const Configuration3& c) {
   const double mean_speed = 2 * thermal_speed / std::sqrt(std::numbers::pi);
   const double cross_section = std::numbers::pi * 4 * radius * radius;
@@ -163,7 +163,7 @@ Race race(const Effort& effort) {
   return race;
 }
 
-/// Of the particles that have collided, in radii.
+/// A row with the deviation of the particles that have collided, in radii.
 Json result_json(const Race& race, const std::string& way, double seconds,
                  const Configuration3& found) {
   std::vector<double> errors;

@@ -16,7 +16,7 @@ inline double sign(Stream& draw) {
 inline double log_uniform(Stream& draw, double low, double high) {
   return low * std::pow(high / low, draw.uniform());
 }
-/// Of either sign.
+/// A number of either sign, whose magnitude is even in its logarithm.
 inline double signed_log_uniform(Stream& draw, double low, double high) {
   const double of_sign = sign(draw);
   return of_sign * log_uniform(draw, low, high);

@@ -40,7 +40,7 @@ Configuration<Dim> gas(int particles, double packing_fraction, std::uint64_t see
 /// their own. No more a periodic one after some collisions of each.
 Configuration2 tiled(const Configuration2& tile, int columns, int rows);
 
-/// Of this process, so that others do not count.
+/// The processor time of this process, so that others do not count.
 double processor_seconds();
 
 /// What some work of an engine took.

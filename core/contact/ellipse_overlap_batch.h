@@ -61,7 +61,7 @@ class OverlapBatch {
   }
 
  private:
-  // Of Ψ, relative to the sum of its terms; from the margin, in units of margin/b.
+  // Bounds of the error of Ψ: relative to the sum of its terms, and from the margin, in units of margin/b.
   static constexpr double psi_error = 1e-10, psi_error_of_margin = 16;
 
   struct Verdict {

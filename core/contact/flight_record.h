@@ -43,7 +43,7 @@ struct alignas(64) FlightRecord {
       return AngularVelocity<dimension>::Zero();
   }
   Pose<dimension> pose() const { return {position, orientation()}; }
-  /// Of a tumbling body it takes its AsymmetricTop.
+  /// The pose of a tumbling body follows from its AsymmetricTop.
   Pose<dimension> pose_at(double t) const requires(!tumbles) {
     if constexpr (has_rotation)
       return advanced(pose(), motion(), t - time);

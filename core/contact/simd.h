@@ -144,7 +144,7 @@ struct alignas(lanes * sizeof(double)) Simd {
   VITREL_INLINE Simd(double value) {
     for (auto& one : part) one = value - Register{};
   }
-  /// Of a pair.
+  /// The two numbers of a pair.
   VITREL_INLINE Simd(double first, double second) : part{{first, second}} {
     static_assert(lanes == 2);
   }

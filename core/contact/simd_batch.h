@@ -26,7 +26,7 @@ struct ShapeCoefficients<Ellipsoid> {
   Vec3 semi_axes;
   double aa_minus_cc, cc;           ///< a² − c², c²
   double max_angular_acceleration;  ///< of a tumbling body, over Ω² (asymmetric_top.h)
-  /// Of a tumbling body: ḧ ≤ max_tumbling Ω² with Ω = max |ω|. In the frame of space ḧ is at most Ω²(a² − c²)/c, which
+  /// A tumbling body has ḧ ≤ max_tumbling Ω² with Ω = max |ω|. In the frame of space ḧ is at most Ω²(a² − c²)/c, which
   /// it is with constant ω, plus |dω/dt| (a − c).
   double max_tumbling;
   explicit ShapeCoefficients(const Ellipsoid& ellipsoid)

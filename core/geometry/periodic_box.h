@@ -85,7 +85,7 @@ class PeriodicBox {
   Vec<Dim> lengths_;
 };
 
-/// Of two opposite shifts, exactly one: so that own images are counted once.
+/// True of exactly one of two opposite shifts, so that own images are counted once.
 template <int Dim>
 bool is_positive_shift(const Shift<Dim>& shift) {
   for (int k = 0; k < Dim; ++k)

@@ -29,7 +29,7 @@ constexpr std::int32_t layout_without_checksum = 3;  // of 0.1.0, without a chec
 constexpr std::string_view trailer = "vitrel checkpoint CRC-32";
 using Checksum = std::array<char, sizeof(std::uint32_t)>;
 
-/// Of the first `bytes` bytes.
+/// The checksum of the first `bytes` bytes.
 Checksum checksum_of(const fs::path& path, std::uintmax_t bytes) {
   std::ifstream file(path, std::ios::binary);
   boost::crc_32_type crc;

@@ -22,7 +22,7 @@ struct Checkpoint {
   std::string parameters;                    ///< TOML text of the work it belongs to
 };
 
-/// Of its configuration.
+/// The dimension of its configuration.
 inline int dimension_of(const Checkpoint& checkpoint) {
   return checkpoint.configuration.index() == 0 ? 2 : 3;
 }

@@ -245,7 +245,7 @@ Dataset::FrameSpaces Dataset::frame_spaces(std::uint64_t first, std::uint64_t co
   Handle space(check(H5Dget_space(handle_.id())));
   check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, sizes(start), nullptr, sizes(block),
                             nullptr));
-  // Of the same shape: between spaces of different ranks HDF5 goes element by element.
+  // Both spaces have the same shape: between different ranks HDF5 goes element by element.
   return {std::move(space), create_space(check, block)};
 }
 

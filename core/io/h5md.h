@@ -132,7 +132,7 @@ class TrajectoryWriter {
   };
   using Numbers = Series<double>;
 
-  /// Of a frame as many rows as it has close pairs, after those of the frames before.
+  /// A frame has a row for each of its close pairs, after the rows of the frames before.
   struct ClosePairs {
     Series<std::int64_t> end, pair;
     Series<std::int32_t> lag;

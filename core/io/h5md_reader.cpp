@@ -278,7 +278,7 @@ const TrajectoryReader::Block& TrajectoryReader::block_with(const std::string& n
   return block;
 }
 
-/// Of an element with at least so many numbers per particle.
+/// The rows of an element, which must have at least so many numbers per particle.
 TrajectoryReader::Rows TrajectoryReader::rows(const std::string& name, const std::string& meaning,
                                               std::uint64_t frame, std::size_t numbers) const {
   const Block& block = block_with(name, frame, [&]() -> const h5::Dataset& {

@@ -40,7 +40,7 @@ std::string class_name(const std::string& key) {
   return name;
 }
 
-/// Of "Method. insert: random positions; lattice: regular positions." what it says of one word, or all if that is
+/// What "Method. insert: random positions; lattice: regular positions." says of one word, or all of it if that is
 /// nothing.
 std::string about(const std::string& word, const std::string& sentence) {
   const std::size_t begin = sentence.find(word + ": ");

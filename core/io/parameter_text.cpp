@@ -59,7 +59,7 @@ class InlineWriter final : public ValueVisitor {
     for (const auto& [key, value] : items_) items.push_back(value);
     return fmt::format("[{}]", fmt::join(items, ", "));
   }
-  /// Of the last field.
+  /// The value of the last field.
   const std::string& value() const { return items_.back().second; }
   const std::string& choices() const { return choices_; }
 

@@ -141,7 +141,7 @@ inline int rotations(const Ellipse& shape, Contacts contacts) {
 inline int rotations(const Ellipsoid& shape, Contacts contacts) {
   return contacts == Contacts::rough ? 3 : shape.rotations();
 }
-/// Of all particles.
+/// The rotations of all particles together.
 template <int Dim>
 std::size_t rotation_count(const Configuration<Dim>& configuration,
                            Contacts contacts = Contacts::smooth);

@@ -23,7 +23,7 @@ from validation.comparison import SCENES, Compared, Tolerance, compared, toml
 TITLE = "Equilibrium from two sides"
 INPUTS = ["mc", "core", "edmd", "workflow/stages"]
 
-# Of each liquid the highest density of the study of the glass (docs/glass.md) and 0.01 above it.
+# The highest density of each liquid in the study of the glass (docs/glass.md) and 0.01 above it.
 LIQUIDS = {"disks": (1, (0.79, 0.80)), "ellipses, κ = 2": (2, (0.855, 0.865))}
 EXCESS = 0.008  # of the packing fraction of the state that is expanded
 APART = 3  # decorrelations between samples

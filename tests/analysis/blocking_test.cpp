@@ -159,7 +159,7 @@ TEST(IndependentAverage, ByHand) {
   EXPECT_TRUE(std::isnan(independent_average({&one, 1}).error));
 }
 
-// Of 1 and 3, and of 11 and 13: within the classes the variance is 2.
+// The classes are 1 and 3, and 11 and 13: within each the variance is 2.
 TEST(IndependentAverage, OfClassesHasNoDifferencesBetweenThem) {
   std::vector<ValueSums> classes(3);
   for (const double value : {1, 3}) classes[0].add(value);
@@ -196,7 +196,7 @@ TEST(MeanOfRuns, CoversTheTruthAsOftenAsItSays) {
   EXPECT_NEAR(covered / 4000.0, 0.95, 4 * 0.0034);
 }
 
-// Of two values 6 apart, s² = 18; with errors of 5 the variance is (18 + 20 · 25)/21.
+// Two values 6 apart have s² = 18; with errors of 5 the variance is (18 + 20 · 25)/21.
 TEST(MeanOfRuns, ErrorsAndScatterBothCount) {
   const std::vector<double> values = {29, 35}, errors = {5, 5};
   const MeanOfRuns mean = mean_of_runs(values, errors);

@@ -143,7 +143,7 @@ using CoverageTable = std::map<std::pair<std::string, int>, Coverage>;
 
 using Sampling = std::function<MemoryTrajectory2(MemoryTrajectory2&)>;
 
-/// Of runs of so many steps, or of those of their frames that are sampled.
+/// The coverage for runs of so many steps, or for those of their frames that are sampled.
 CoverageTable coverage_of_free_runs(std::size_t length, const std::vector<int>& steps,
                                     const Sampling& sampled = {}) {
   constexpr int seeds = 100;

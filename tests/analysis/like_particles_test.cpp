@@ -46,7 +46,8 @@ TEST(LikeParticles, OfManySizesAreNeighboursInSize) {
   for (std::size_t i = 0; i < 64; ++i) EXPECT_EQ(alike.class_of[i], rank[i] / 8);
 }
 
-// Of one area, but of different aspect ratios: halved by area, which all share, and then by the longer semi-axis.
+// Particles of one area, but of different aspect ratios, are halved by area, which all share, and then by the longer
+// semi-axis.
 TEST(LikeParticles, AreAlikeInAspectRatioToo) {
   std::vector<Ellipse> shapes;
   for (int i = 0; i < 32; ++i) shapes.push_back(of_aspect_ratio(i % 2 == 0 ? 1 : 4));

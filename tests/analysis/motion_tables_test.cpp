@@ -19,7 +19,7 @@ Names names(const std::vector<Column>& columns) {
   return result;
 }
 
-/// Of 25 frames, with lags of one, two and three steps.
+/// The motion in 25 frames, with lags of one, two and three steps.
 RunMotion motion_of(MemoryTrajectory2& trajectory) {
   const Configuration2 first = trajectory.read(0);
   const std::vector<Lag> lags = few_lags_of_motion(trajectory, {});

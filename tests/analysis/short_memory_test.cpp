@@ -54,7 +54,7 @@ extern "C" fftw_plan fftw_plan_dft_c2r_3d(int x, int y, int z, fftw_complex* in,
 namespace vitrel {
 namespace {
 
-/// Of all allocations and plans of the work every one that fails is reported, and the work succeeds after it.
+/// Every allocation and every plan of the work that fails is reported, and the work succeeds after it.
 void expect_reported(const std::function<void()>& work) {
   const auto count_calls = [&] {
     calls = failing_call = 0;

@@ -146,7 +146,7 @@ void expect_ornstein_uhlenbeck() {
   const VelocityCorrelations found = velocity_correlations(trajectory);
   expect_exponential<Dim>(found, found.translation, rate, 2000. * Dim);
   expect_exponential<Dim>(found, found.rotation, 2 * rate, 2000.);
-  // Of n = 512 000 squares or more with correlation c²: √(2 (1 + c²)/(1 − c²)/n) = 0.5 %.
+  // The relative error of n = 512 000 squares or more with correlation c² is √(2 (1 + c²)/(1 − c²)/n) = 0.5 %.
   EXPECT_NEAR(found.translation.mean_square, 9. * Dim, 5 * 0.005 * 9 * Dim);
 }
 

@@ -58,7 +58,7 @@ class Fixtures : public testing::TestWithParam<std::string> {
   const Folder folder_;
 };
 
-/// Of what both files have as a series, the frames before are the first ones after.
+/// In every series that both files have, the frames before are the first ones after.
 void expect_continued(const Datasets& before, const Datasets& after) {
   for (const auto& [name, values] : before) {
     const auto found = after.find(name);

@@ -41,7 +41,7 @@ class Pair : public testing::Test {
     EXPECT_EQ(outcome.code, 0) << outcome.errors;
     return Json::parse(outcome.output, nullptr, false);
   }
-  /// Of two bodies, with further options.
+  /// The answer about two bodies, with further options.
   Json answer(const std::string& question, const std::string& one, const std::string& two,
               const Words& options = {}) const {
     Words words = {question, "--body", one, "--body", two};

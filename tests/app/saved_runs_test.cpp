@@ -275,7 +275,7 @@ TEST_F(SavedSweep, RunsAreOrderedByDensityThenBySeed) {
   }
 }
 
-// Of two values d apart the 95 % interval is ± tan(0.95 π/2) d/2: Student's quantile for one degree of freedom.
+// Two values d apart have the 95 % interval ± tan(0.95 π/2) d/2: Student's quantile for one degree of freedom.
 TEST_F(SavedSweep, SeedsAreAveraged) {
   ASSERT_EQ(run(folder_.path(), {"analyze", "sweep", "-q"}).code, 0);
   const Results results = read_results(folder_ / "sweep/results.h5");

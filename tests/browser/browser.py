@@ -79,7 +79,7 @@ class Browser:
         elif method == "Runtime.consoleAPICalled" and what["type"] in ("error", "warning", "assert"):
             self.complaints.append(json.dumps(what["args"]))
         elif method == "Log.entryAdded" and what["entry"]["level"] in ("error", "warning"):
-            # Of the software renderer that stands in for a graphics card, for every picture of WebGL.
+            # The software renderer that stands in for a graphics card says this of every picture of WebGL.
             if "GPU stall due to ReadPixels" not in what["entry"]["text"]:
                 self.complaints.append(what["entry"]["text"])
         elif method == "Network.requestWillBeSent":

@@ -6,8 +6,8 @@ import unittest
 
 from pages import PIXELS, SHIFT, WIDTHS, PageTest
 
-# Of the picture: [count of different colours, checksum, pixels with a colour, pixels with the red of overlaps, mean x and y of
-# those with a colour]. Background, edges of the box and letters have none.
+# What there is in the picture: [count of different colours, checksum, pixels with a colour, pixels with the red of overlaps,
+# mean x and y of those with a colour]. Background, edges of the box and letters have none.
 LOOK = f"(() => {{ {PIXELS}" + """
   const { data, width } = pixels(document.getElementById('scene'));
   const colours = new Set();

@@ -159,7 +159,7 @@ TEST(OverlapBatch, AnswersOfAGroupAreThoseOfItsPairs) {
   EXPECT_LT(clear, groups * 9 / 10);
 }
 
-// Of pairs at random places within the circumcircles nearly all are decided in batches: what the speed
+// Nearly all pairs at random places within the circumcircles are decided in batches: what the speed
 // rests on.
 TEST(OverlapBatch, FewPairsAreLeftToBeDecidedAlone) {
   for (const double kappa : {1.5, 2., 6., 100.}) {

@@ -144,7 +144,7 @@ TEST(EllipsoidOverlapBatch, AnswersForManyAreThoseOfTheirPairs) {
   EXPECT_LT(clear, rounds * 9 / 10);
 }
 
-// Of pairs at random places within the circumspheres nearly all are decided in batches: what the speed rests on.
+// Nearly all pairs at random places within the circumspheres are decided in batches: what the speed rests on.
 TEST(EllipsoidOverlapBatch, FewPairsAreLeftToBeDecidedAlone) {
   for (const Ellipsoid& shape : {prolate(1.5), prolate(3), oblate(3), prolate(10)}) {
     Stream draw(73, Purpose::tests);

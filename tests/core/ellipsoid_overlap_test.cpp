@@ -35,7 +35,7 @@ SupportGap3 gap_of(const PosedSolids& p) {
   return support_gap(p.one, p.turn1, p.two, p.turn2, p.d);
 }
 
-// Of Σ cₖ xᵏ.
+// The roots of Σ cₖ xᵏ.
 std::array<std::complex<double>, 4> roots(const std::array<double, 5>& coefficients) {
   gsl_poly_complex_workspace* workspace = gsl_poly_complex_workspace_alloc(coefficients.size());
   double parts[8];

@@ -66,7 +66,7 @@ Truth truth(const Vector& d, const Vector& v, double reach, double growth) {
   return {b < 0 ? c / (root - b) : (b + root) / -a, height};
 }
 
-// Of the sum in c = d² − reach² rounding leaves 3 ε d², of the products in the discriminant as much;
+// Rounding leaves 3 ε d² of the sum in c = d² − reach², and as much of the products in the discriminant;
 // near a graze, at a height η of the discriminant, that makes the relative error ~ 8 ε (d²/c + 1/η). Positions at the
 // present are rounded to ε (|r| + |v| t).
 TYPED_TEST(RoundContacts, TellTheEarliestAndItsTime) {

@@ -31,7 +31,7 @@ TEST(NormalRestitution, IsLinearBetweenSpeeds) {
   EXPECT_TRUE(NormalRestitution::tabulated({1, 2}, {1, 1}).is_elastic());
 }
 
-// Of spheres of this material, the head-on impact integrated.
+// The coefficient of restitution of spheres of this material, from the integrated head-on impact.
 double integrated(const Viscoelastic& material, double speed) {
   const ContactPair pair = contact_pair(1e6, 1, 1e6, 1);  // flat: nothing passes through
   return -integrate_contact<Viscoelastic>(scaled_impact(material, pair, speed, 0)).rate;

@@ -79,7 +79,7 @@ void expect_coefficients(const ScaledImpact& of, const Restitution& expected, do
   EXPECT_NEAR(found.rate, expected.rate, tolerance);
 }
 
-// Of an independent integration, to the digits given.
+// The values are those of an independent integration, to the digits given.
 TEST(Restitution, ObliqueReferenceValues) {
   expect_coefficients<LinearDashpot>(impact(10, 0.5, 0.2),
                                      {0.985005066, 0.185758530, 2.861236631, -0.749746697}, 6e-10);

@@ -89,7 +89,7 @@ struct FreeFlux : Observer<2> {
   double time = 0, moment = 0;
 };
 
-// Of Brownian particles that do not meet: velocities are drawn anew at times 1, 2 …, just after the frames of these
+// Brownian particles do not meet here: velocities are drawn anew at times 1, 2 …, just after the frames of these
 // times.
 TEST(MomentumFlux, FollowsTheVelocitiesThatAreDrawn) {
   const Configuration2 start = moving(square_lattice(2, 1e-9, 0, [](std::size_t) {

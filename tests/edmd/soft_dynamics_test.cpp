@@ -276,7 +276,7 @@ TEST(SoftException, OnlyLoneReleasesCostAngularMomentum) {
   }
 }
 
-// Of two particles just out of a damped contact and still close, the one is driven back by a third.
+// One of two particles just out of a damped contact, and still close, is driven back by a third.
 TEST(SoftPair, MeetsAgainIfTurnedBackWhileClose) {
   Configuration2 start =
       few<2>({0.1, 0.1, 0.1}, {{0, 0}, {0.1999, 0}, {0.4, 0.01}}, {{0, 0}, {0.01, 0}, {-5, 0}});

@@ -109,8 +109,8 @@ Configuration3 thin_gas_in_space() {
   return c;
 }
 
-/// Of a state: pairs of centres closer than 2, pairs of close spheroids weighted by how parallel they are, spheroids
-/// weighted by their direction against z, and particles near a line between cells.
+/// What is measured of a state: pairs of centres closer than 2, pairs of close spheroids weighted by how parallel they
+/// are, spheroids weighted by their direction against z, and particles near a line between cells.
 std::array<double, 4> measured(const Configuration3& c) {
   std::array<double, 4> sums{};
   const auto axis = [&](std::size_t i) -> Vec3 { return c.orientation[i] * Vec3::UnitX(); };

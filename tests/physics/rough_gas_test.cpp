@@ -25,7 +25,7 @@ struct Temperatures {
   double ratio() const { return rotation / translation; }
 };
 
-/// Of three translations of N − 1 particles, whose momentum is 0, and three rotations of N.
+/// The temperatures of three translations of N − 1 particles, whose momentum is 0, and of three rotations of N.
 class Thermometer : public Observer<3> {
  public:
   void observe(const Frame<3>& frame) override {

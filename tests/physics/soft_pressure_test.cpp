@@ -23,7 +23,7 @@ constexpr double pi = std::numbers::pi;
 /// Spheres of radius 1 and mass 1.
 const ContactPair pair = contact_pair(1, 1, 1, 1);
 
-/// Of the compression ξ: F = s ξ^(3/2).
+/// The potential of the compression ξ, whose force is F = s ξ^(3/2).
 double potential(const Viscoelastic& force, double compression) {
   return 0.4 * force.stiffness(pair) * std::pow(compression, 2.5);
 }

@@ -22,7 +22,7 @@ BAD = {
     "core/geometry/vector.h": "using Vector = std::byte;\n",
     "core/state/configuration.h": "#include <cstdint>\nstruct State { Vector x; };\n",
     "core/error.h": "using Error = std::exception;\n",
-    # Of these, only a precompiled header has what they need, and they do not include it.
+    # Only a precompiled header has what these need, and they do not include it.
     "edmd/bytes.h": "std::byte bytes();\n",
     "edmd/numbers.h": '#include "core/geometry/vector.h"\nstd::int64_t numbers(Vector x);\n',
     "edmd/states.h": '#include "core/geometry/vector.h"\nvoid states(const State& state);\n',

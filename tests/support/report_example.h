@@ -249,7 +249,7 @@ inline Table relaxation_table() {
        codes("orientation", orientation_names, orientation)}};
 }
 
-/// Of translation both laws are found, of rotation there is a bound or nothing; both laws agree with the
+/// Both laws are found for translation, and a bound or nothing for rotation; both laws agree with the
 /// times, and at the middle of the window with one another.
 inline Table fit_table() {
   const double vogel_fulcher = std::log(relaxation_time(0.66)) - 0.6 * 0.66 / (0.85 - 0.66);

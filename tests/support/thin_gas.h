@@ -23,7 +23,7 @@ inline Configuration2 thin_gas() {
   return c;
 }
 
-/// Of a state: pairs closer than two thirds of the longest reach, how parallel they are, and the
+/// What is measured of a state: pairs closer than two thirds of the longest reach, how parallel they are, and the
 /// particles within a tenth of a cell's width of a line between cells.
 inline std::array<double, 3> measured(const Configuration2& c) {
   std::array<double, 3> sums{};

@@ -30,7 +30,7 @@ Configuration3 soup(std::size_t n, const Vec3& lengths) {
   return c;
 }
 
-/// Of a single state.
+/// The moving picture of a single state.
 Movie3 picture(const Configuration3& state, std::size_t max_particles = 4'000) {
   MemoryTrajectory3 still({state});
   return film(still, {.particles = max_particles});

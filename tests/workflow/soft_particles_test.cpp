@@ -27,7 +27,7 @@ class SoftParticles : public testing::Test {
   }
   ~SoftParticles() override { std::filesystem::remove_all(folder_); }
 
-  /// Of spheres of these radii.
+  /// The contact of spheres of these radii.
   std::shared_ptr<SoftContact> one_contact(const ContactParameters& contact,
                                            const std::vector<double>& radii) const;
 
@@ -38,7 +38,7 @@ class SoftParticles : public testing::Test {
   };
 };
 
-/// Of radii in units of the first.
+/// Spheres whose radii are in units of the first.
 Configuration3 spheres(const std::vector<double>& radii) {
   Configuration3 c;
   c.resize(radii.size());

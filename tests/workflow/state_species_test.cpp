@@ -102,7 +102,7 @@ TEST(StateSpecies, WithoutARecordTheParticlesDecide) {
   const Parameters made = parse(mixture);
   Configuration2 state = drawn(made);
   EXPECT_EQ(taken(mixture, state, "").species.front().mass, 3);
-  // Of particles that differ the ranges.
+  // The ranges of particles that differ.
   const Distribution a = taken("", state, "").species.front().semi_axes->front();
   std::vector<double> rods;
   for (std::size_t i = 0; i < state.size(); ++i)

@@ -164,7 +164,7 @@ TEST(Sweep, AFullDiskStopsIt) {
   EXPECT_TRUE(outcome.stopped);
   EXPECT_THAT(sweep.lines().back(), HasSubstr("the disk is full"));
   EXPECT_EQ(sweep.summary()["jobs"][1]["stage"], "waiting");
-  // Of another mistake with files the others know nothing.
+  // The others know nothing of another mistake with files.
   sweep.make_steps("echo 'state.h5: cannot be read' >&2; exit 3");
   EXPECT_EQ(sweep.run().failed, 3u);
 }
@@ -190,7 +190,7 @@ TEST(Sweep, ProgressIsTheShareOfTheSimulatedTime) {
   EXPECT_THAT(fractions, ElementsAre(0.5 * 40 / 120, (40 + 0.5 * 80) / 120));
 }
 
-// Of two values d apart, the standard error of the mean is d/2; Student's quantiles for one degree of freedom are
+// The standard error of the mean of two values d apart is d/2; Student's quantiles for one degree of freedom are
 // tan(πp/2). These two differ by more than their errors explain, and so their scatter alone counts.
 TEST(SeedAverages, AreMeansWithIntervals) {
   const auto job = [](const char* density, const char* seed, double z) {

@@ -198,7 +198,7 @@ void put_into_units(Results& results, const FileUnits& units) {
     }
 }
 
-/// Of a run of this dimension.
+/// The analysis of a run of this dimension.
 template <int Dim>
 AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
   const std::filesystem::path file = opened.reader.path();

@@ -9,7 +9,7 @@
 /// From the parameters of hard particles to the laws of their contacts in a run.
 namespace vitrel {
 
-/// Of the species in the order of the parameters, which is that of the configuration.
+/// The laws between the species, in the order of the parameters, which is that of the configuration.
 ContactLaws contact_laws(const Parameters& parameters);
 
 /// Whether any contact is rough.

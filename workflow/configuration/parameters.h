@@ -87,7 +87,7 @@ struct DynamicsParameters {
   std::optional<ContactParameters> contact;  ///< none: hard particles
 };
 
-/// Of correlations on the fly.
+/// How correlations are measured on the fly.
 struct CorrelationParameters {
   double interval = 0.1;
   std::optional<double> longest_lag;  ///< none: half the duration

@@ -54,13 +54,13 @@ std::optional<SpeciesNameConflict> species_name_conflict(const std::vector<std::
 inline constexpr const char* rotation_names[] = {"euler", "constant"};
 
 void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit);
-/// Of hard particles: their laws of contact and what drives them.
+/// The laws of contact of hard particles, and what drives them.
 void describe_collisions(DynamicsParameters& p, FieldVisitor& visit);
 void validate_collisions(const Parameters& parameters);
 void describe_contact(ContactParameters& p, FieldVisitor& visit);
 void describe_materials(ContactParameters& p, FieldVisitor& visit);
 void validate_times(const Parameters& parameters);
-/// Of soft particles, which the species and the dynamics must fit.
+/// The contact law of soft particles, which the species and the dynamics must fit.
 void validate_contact(const Parameters& parameters);
 
 void describe_output(OutputParameters& p, FieldVisitor& visit);

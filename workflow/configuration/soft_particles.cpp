@@ -36,7 +36,7 @@ Kinds kinds_of(const Configuration<Dim>& configuration,
   return kinds;
 }
 
-/// Of many kinds, some spread over all radii.
+/// All kinds, or if there are many, some that are spread over all radii.
 std::vector<KindOfSphere> some_of(const Kinds& all) {
   constexpr std::size_t enough = 32;
   const std::vector<KindOfSphere> sorted(all.begin(), all.end());

@@ -17,7 +17,7 @@
 namespace vitrel {
 namespace {
 
-/// Of a species whose particles are all alike.
+/// The semi-axes of a species whose particles are all alike.
 template <int Dim>
 Vec3 semi_axes_of(Species species) {
   species.fraction = 1;

@@ -137,7 +137,7 @@ std::optional<Parameters> recorded_parameters(const Configuration<Dim>& state,
     if (species_conflict(recorded.species, state)) return std::nullopt;
     return recorded;
   } catch (const UserError&) {
-    // Of another program, or of a version with other keys.
+    // The text is that of another program, or of a version with other keys.
     return std::nullopt;
   }
 }

@@ -63,7 +63,7 @@ struct Grid {
       origin[k] = -0.5 * lengths[k];
     }
   }
-  /// Of the centre of a voxel.
+  /// The coordinate of the centre of a voxel.
   double coordinate(int k, std::int64_t n) const {
     return origin[k] + (static_cast<double>(n) + 0.5) * step[k];
   }

@@ -20,14 +20,14 @@ struct Pair {
   Flight<Solid<Dim>> one, two;
   std::optional<PeriodicBox<Dim>> box;
   double horizon = 0;
-  /// Of scalene ellipsoids by Euler's equations (core/geometry/tumbling_ellipsoid.h); all others keep their angular
+  /// Scalene ellipsoids rotate by Euler's equations (core/geometry/tumbling_ellipsoid.h); all others keep their angular
   /// velocity.
   FreeRotation rotation = FreeRotation::euler;
 
   bool tumbles() const;
 };
 
-/// Of validated parameters, whose dimension is Dim.
+/// The pair of validated parameters, whose dimension is Dim.
 template <int Dim>
 Pair<Dim> pair_of(const PairParameters& parameters);
 

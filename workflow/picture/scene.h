@@ -10,7 +10,7 @@ namespace vitrel {
 
 /// How much of the plane is shown beyond each edge of the box, in box lengths; there the periodic images are pale.
 constexpr double plane_margin = 0.03;
-/// Of the background in what is seen there.
+/// The share of the background in the colour of what lies there.
 constexpr double pale_share = 0.65;
 /// The width of lines over the longer side of the picture.
 constexpr double line_share = 1 / 800.;

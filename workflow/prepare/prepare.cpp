@@ -208,7 +208,7 @@ class PrepareJob {
                                system.draw);
   }
 
-  /// Of species with distributed sizes, what n particles make of the distribution.
+  /// Says what n particles make of the distribution of the sizes of a species.
   void say_sizes() const {
     for (std::size_t k = 0; k < parameters().species.size(); ++k) {
       const MeanAndSpread sizes = sizes_of(done().configuration, static_cast<std::int32_t>(k));

@@ -123,7 +123,7 @@ void add_time_rows(std::vector<QualityRow>& rows, const StateQuality& quality,
                            "until the particles have moved by their width"));
 }
 
-/// Of the nematic correlation, in units of √⟨ab⟩.
+/// The width of bins of the nematic correlation, in units of √⟨ab⟩.
 constexpr double bin_width = 0.25;
 
 double unit_length(const Configuration2& configuration) {

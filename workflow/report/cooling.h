@@ -11,7 +11,7 @@
 /// The cooling curve of a granular gas and Haff's law for it, as the page shows them.
 namespace vitrel {
 
-/// Of particles that lose energy in collisions and get none back.
+/// How particles cool that lose energy in collisions and get none back.
 struct Cooling {
   double exponent;     ///< of Haff's law
   std::string reason;  ///< what makes it so, as the rest of a sentence

@@ -115,7 +115,7 @@ std::string time_text(const Row& row, const std::string& unit_of_time) {
   return std::isfinite(row.value("most")) ? "&lt; " + row.text("most") + unit_of_time : "–";
 }
 
-/// Of all particles together, which are group 0.
+/// A row for all particles together, which are group 0; empty for other groups.
 std::string time_row(const Row& row, const Notation& notation) {
   if (row.value("group") != 0) return "";
   const std::string parameter = row.text("parameter");

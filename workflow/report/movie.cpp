@@ -195,7 +195,7 @@ Json rounded(const auto& numbers) {
   return array;
 }
 
-/// Of every frame; once if it is always the same.
+/// The box of every frame; a single one if it is always the same.
 Json boxes_data(const auto& boxes) {
   Json data = Json::array();
   for (const auto& box : boxes) data.push_back(rounded(box));

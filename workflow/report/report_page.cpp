@@ -110,7 +110,7 @@ std::string job_provenance(const std::vector<ReportRun>& runs) {
   return filled(asset("page/job_provenance.html"), {{"head", head}, {"rows", rows}});
 }
 
-/// Of a single run that cools.
+/// The section about a single run that cools; else empty.
 std::string cooling_section(const std::vector<ReportRun>& runs, int dimension) {
   if (runs.size() != 1 || !runs.front().cooling) return "";
   const Cooling& cooling = *runs.front().cooling;

@@ -100,8 +100,8 @@ RunCheckpoint<Dim> run_from_checkpoint(const Checkpoint& checkpoint,
   return run;
 }
 
-/// Of a complete run the checkpoint before the last. The last is of the end, where a longer run would not have stopped:
-/// to go on from there would differ by rounding.
+/// The checkpoint before the last one of a complete run. The last is of the end, where a longer run would not have
+/// stopped: to go on from there would differ by rounding.
 template <int Dim>
 RunCheckpoint<Dim> before_the_end(const fs::path& checkpoint) {
   const auto refusal = [&](const std::string& why) {

@@ -13,7 +13,7 @@
 /// Where a run starts: at the end of its preparation, or at its checkpoint.
 namespace vitrel {
 
-/// Of the run with this output.
+/// The checkpoint of the run with this output.
 std::filesystem::path checkpoint_path(const std::filesystem::path& output);
 
 /// What the checkpoint of a run holds.

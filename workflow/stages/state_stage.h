@@ -28,7 +28,7 @@ struct StateStage : StageDefaults {
   std::optional<Rows> angular_velocities;  ///< in the plane rows of one number
   std::optional<std::vector<std::string>> species;
 
-  /// Of the state, once it is known; no key of the parameter file.
+  /// The packing fraction of the state, once it is known; no key of the parameter file.
   std::optional<double> packing_fraction;
 
   static std::vector<StageField<StateStage>> fields();

@@ -21,7 +21,8 @@ Work work_in(const fs::path& folder) {
   return fs::exists(folder / "run.h5") ? Work::run : Work::preparation;
 }
 
-/// Of a finished job. Others make its run longer or its analysis another one.
+/// Whether a change of this key in a finished job might go unnoticed. The other keys make its run longer, or its
+/// analysis another one.
 bool may_change_unnoticed(const std::string& key) {
   return !key.starts_with("analysis.") && !key.starts_with("dynamics.duration");
 }

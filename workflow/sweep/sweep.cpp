@@ -52,7 +52,7 @@ class Sweep {
     return run_jobs();
   }
 
-  /// Of a single job, beside others that work on other jobs.
+  /// Works on a single job, beside others that work on other jobs.
   SweepOutcome run_beside_others() {
     const fs::path folder = request_.folder / jobs_.front().id;
     const std::string& predecessor = jobs_.front().predecessor;

@@ -106,7 +106,7 @@ std::vector<SeedAverage> averages_of(const std::vector<SweepJob>& jobs, const fs
   return seed_averages(results);
 }
 
-/// Of which averages the seeds differ by more than the errors of their runs explain.
+/// Names the averages whose seeds differ by more than the errors of their runs explain.
 std::string scatter_text(const std::vector<SeedAverage>& averages) {
   std::string text;
   for (const SeedAverage& average : averages)

@@ -47,7 +47,7 @@ class ParticleTable {
 
   /// In this order; empty if there is no such column.
   std::vector<double> numbers(const std::string& column, const Order& order) const;
-  /// Of three columns "x", "y", "z" behind a prefix; the third may be missing and is then 0.
+  /// Vectors from three columns "x", "y", "z" behind a prefix; the third may be missing and is then 0.
   std::vector<Vec3> vectors(const std::string& prefix, const std::array<const char*, 3>& columns,
                             const Order& order) const;
   std::vector<Vec3> semi_axes(const Order& order) const;
