@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 namespace vitrel {
@@ -58,13 +59,12 @@ template <int Dim>
 HardFluid::Averages HardFluid::averages_of(const Configuration<Dim>& c, std::size_t i) {
   static const std::vector<Vec<Dim>> normals = directions<Dim>();
   const bool is_round = c.shape[i].is_round();  // then all directions say the same
-  const std::size_t count = is_round ? 1 : normals.size();
+  const std::span<const Vec<Dim>> seen = std::span(normals).first(is_round ? 1 : normals.size());
   const Vec<Dim> axes = semi_axes_of(c.shape[i]);
   const auto inertia = c.inertia(i);
-  const double weight = 1.0 / static_cast<double>(count);
+  const double weight = 1.0 / static_cast<double>(seen.size());
   Averages one;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vec<Dim>& n = normals[k];
+  for (const Vec<Dim>& n : seen) {
     const double h = norm(axes.cwiseProduct(n));
     const Vec<Dim> point = axes.cwiseAbs2().cwiseProduct(n) / h;
     one.support += weight * h;

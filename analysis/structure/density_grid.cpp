@@ -60,8 +60,8 @@ void add_splines(double* grid, double weight, const std::array<SplineValues, Dim
   }
 }
 
-/// Goes on to the next numbers, from −most to most, of all axes but the last one, the last of them fastest; false after
-/// the last.
+/// Goes on to the next numbers, from −most to most, of all axes but the last one, the last of them fastest; false
+/// after the last.
 template <std::size_t Dim>
 bool advance(std::array<int, Dim>& n, const std::array<int, Dim>& most) {
   for (std::size_t k = Dim - 1; k-- > 0;) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -55,7 +54,8 @@ CollisionCaseOf<Dim> case_of(const Pair<Dim>& pair) {
   return asked;
 }
 
-double ns_per_call(const std::function<void()>& ask) {
+template <class Ask>
+double ns_per_call(Ask&& ask) {
   constexpr double seconds = 0.1;
   TimedBatches batches(seconds);
   while (const std::size_t count = batches.next(std::numeric_limits<std::size_t>::max()))

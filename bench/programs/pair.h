@@ -12,9 +12,8 @@ struct PairMethodsOptions {
   std::vector<std::string> methods;  ///< by name; empty: all
 };
 
-/// `vitrel-bench pair`: the contact time of one pair by the default method and by others, with their time per call; as JSON
-/// also whether it overlaps.
-/// Throws UserError for an unknown method or an impossible pair.
+/// `vitrel-bench pair`: the contact time of one pair by the default method and by others, with their time per call; as
+/// JSON also whether it overlaps. Throws UserError for an unknown method or an impossible pair.
 int pair(const PairMethodsOptions& options, const OutputOptions& output);
 
 }  // namespace vitrel::bench

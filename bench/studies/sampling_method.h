@@ -124,9 +124,9 @@ struct Motion : SamplingMethod<Dim> {
   double virial = 0, begin = time;
 };
 
-/// Local moves at the constant pressure that belongs to a known Z. The mean packing fraction gives βP/ρ at that of the
-/// start: if Z^(−1/D) is linear in φ, as nearly in scaled-particle theory, then d ln P/d ln φ = D Z^(1/D) − D + 1, which
-/// holds for disks within 2 %, for spheres within 15 %.
+/// Local moves at the constant pressure that belongs to a known Z. The mean packing fraction gives βP/ρ at that of
+/// the start: if Z^(−1/D) is linear in φ, as nearly in scaled-particle theory, then d ln P/d ln φ = D Z^(1/D) − D + 1,
+/// which holds for disks within 2 %, for spheres within 15 %.
 template <int Dim>
 struct ConstantPressure : SamplingMethod<Dim> {
   ConstantPressure(const Configuration<Dim>& start, double known_z)

@@ -61,7 +61,8 @@ def listener(quiet: bool) -> Tuple[Optional[Callable[[str], None]], Optional[Cal
     shown: Union[_Bar, _Line]
     try:
         with warnings.catch_warnings(action="ignore"):  # that a notebook without ipywidgets gets a bar of text
-            shown = _Bar(importlib.import_module("tqdm.auto").tqdm, sys.stderr)
+            tqdm = importlib.import_module("tqdm.auto").tqdm
+        shown = _Bar(tqdm, sys.stderr)
     except ImportError:
         shown = _Line(sys.stderr)
     return shown.say, shown.show, shown

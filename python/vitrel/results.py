@@ -1,6 +1,5 @@
 """Tables of results: arrays with errors and units, and the charts that show them."""
 
-import difflib
 import functools
 import html
 import json
@@ -12,6 +11,7 @@ from typing import Dict, Iterable, Iterator, List, Optional, TypeVar
 import numpy
 
 from . import _vitrel
+from .toml import suggestion
 
 _ROWS_SHOWN = 10  # of a table, in a notebook
 
@@ -73,10 +73,12 @@ class _ByName(Mapping[str, _Item]):
         self._items: Dict[str, _Item] = {item.name: item for item in items}
 
     def __getitem__(self, name: str) -> _Item:
-        if name not in self._items:
-            near = difflib.get_close_matches(str(name), self, n=1)
-            raise KeyError(f"{name!r} is none of {', '.join(self)}" + (f"; did you mean {near[0]!r}?" if near else ""))
+        if name not in self:
+            raise KeyError(f"{name!r} is none of {', '.join(self)}{suggestion(str(name), self)}")
         return self._items[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._items
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._items)

@@ -46,11 +46,15 @@ def _key(key: str) -> str:
     return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key, ensure_ascii=False)
 
 
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """The end of a message about an unknown name: the nearest that is known, if there is one."""
+    nearest = difflib.get_close_matches(name, known, 1)
+    return f"; did you mean '{nearest[0]}'?" if nearest else ""
+
+
 def unexpected(function: str, name: str, known: Iterable[str]) -> TypeError:
     """What Python says of an unknown keyword argument, with the nearest that is known."""
-    nearest = difflib.get_close_matches(name, known, 1)
-    hint = f"; did you mean '{nearest[0]}'?" if nearest else ""
-    return TypeError(f"{function}() got an unexpected keyword argument '{name}'{hint}")
+    return TypeError(f"{function}() got an unexpected keyword argument '{name}'{suggestion(name, known)}")
 
 
 class Setting:
