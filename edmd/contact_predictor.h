@@ -188,7 +188,7 @@ class ContactPredictor {
 
   // The mean time between two collisions of a particle in this block, once it is known. A contact that cannot
   // occur within this time is not searched yet. The speed-up has a flat maximum around one mean free time
-  // (docs/validation.md, speed of the engine).
+  // (docs/studies/engine.md).
   double mean_free_time() const {
     const auto particles = static_cast<double>(state_.size());
     return state_.collisions < particles ? State::never

@@ -19,7 +19,7 @@ void require_round(const Configuration<Dim>& configuration, const EngineOptions&
 
 /// Cells cost less than lists while there are fewer particles than this in a cell of the least width: up to a packing
 /// fraction of 0.36 of equal disks and 0.22 of equal spheres, the lowest values measured on any machine
-/// (docs/validation.md, speed of the engine). In systems that exceed the caches, of which the loop prefetches lists
+/// (docs/studies/engine.md). In systems that exceed the caches, of which the loop prefetches lists
 /// only, the limit is lower.
 double max_particles_per_cell(std::size_t particles) {
   constexpr std::size_t cached_particles = 32768;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "app/terminal/exit_codes.h"
@@ -63,27 +64,26 @@ const Part& part_named(const Study& study, const std::string& name) {
   return *std::ranges::find(study.parts, name, &Part::name);
 }
 
-/// Longer tables are only on the page and among the numbers.
-constexpr std::size_t most_rows = 100;
-
-/// The sentences and tables of all parts. With the charts that scripts/validate saves in the folder of the study, and
-/// without the table of all numbers (the last) of answers that are right or wrong, which charts and other tables show.
+/// The sentences and tables of all parts, with the charts that scripts/validate saves in the folder of the study, or
+/// without. All numbers of a part if they are few; else how costs compare, unless charts show it.
 std::string parts_text(const Study& study, const Json& numbers, bool has_charts) {
+  constexpr std::size_t few_rows = 24;
   std::string text;
   for (const Json& of : numbers["parts"]) {
     const Part& part = part_named(study, of["name"]);
     text += fmt::format("\n## {}\n\n{}\n", part.name, part.about);
     if (const std::string answer = of["answer"]; !answer.empty())
       text += fmt::format("\n**{}**\n", answer);
+    const Json charts = has_charts ? charts_of(part, of["rows"]) : Json::array();
     int number = 0;
-    if (has_charts)
-      for (const Json& chart : charts_of(part, of["rows"]))
-        text += fmt::format("\n![{}]({}/{}-{}.svg)\n", chart["heading"].get<std::string>(),
-                            study.name, part.name, ++number);
-    std::vector<StudyTable> tables = tables_of(part, of["rows"]);
-    if (has_charts && !part.verdicts.empty()) tables.pop_back();
+    for (const Json& chart : charts)
+      text += fmt::format("\n![{}]({}/{}-{}.svg)\n", chart["heading"].get<std::string>(),
+                          study.name, part.name, ++number);
+    const std::vector<StudyTable> tables = tables_of(part, of["rows"]);
+    const bool few = tables.back().rows.size() <= few_rows;
+    const std::array shown = {true, !few && charts.empty(), few};
     for (const StudyTable& table : tables)
-      if (table.rows.size() <= most_rows)
+      if (shown.at(static_cast<std::size_t>(table.content)))
         text += fmt::format("\n{}:\n\n{}", table.heading, markdown(table));
   }
   return text;

@@ -112,10 +112,10 @@ bool applies(const Json& row) {
 
 /// Rows of a case and of methods against each other; cell(row, row of the first method).
 template <class MakeCell>
-StudyTable matrix(const Part& part, const Json& rows, const std::string& heading,
+StudyTable matrix(const Part& part, const Json& rows, Content content, const std::string& heading,
                   MakeCell&& make_cell) {
   const std::vector<std::string> methods = methods_of(rows);
-  StudyTable table{heading, methods, {}};
+  StudyTable table{content, heading, methods, {}};
   table.head.insert(table.head.begin(), "");
   for (const std::string& of :
        distinct(rows, [&](const Json& row) { return compared_name(part, row); })) {
@@ -147,12 +147,11 @@ Cell cost_cell(const Part& part, const Json& row, const Json* first) {
   const std::string text = text_at(row, part.cost);
   if (!first || first == &row) return {text};
   const double times = number_at(row, part.cost.key) / number_at(*first, part.cost.key);
-  if (std::isnan(times)) return {text};
-  return {fmt::format("{} ({})", text, ratio_text(times))};
+  return std::isnan(times) ? Cell{text} : Cell{ratio_text(times), text};
 }
 
 StudyTable all_rows(const Part& part, const Json& rows) {
-  StudyTable table{"All numbers", {}, {}};
+  StudyTable table{Content::all_numbers, "All numbers", {}, {}};
   std::vector<Column> columns;
   const auto add = [&](const Column& column) {
     const auto known = [&](const Json& row) { return row.contains(column.key); };
@@ -289,13 +288,13 @@ std::string share_text(double share) {
 
 std::vector<StudyTable> tables_of(const Part& part, const Json& rows) {
   std::vector<StudyTable> tables;
-  if (rows.empty()) return tables;
   if (!part.verdicts.empty() && is_comparable(part))
-    tables.push_back(matrix(part, rows, "Wrong answers",
+    tables.push_back(matrix(part, rows, Content::wrong_answers, "Wrong answers",
                             [&](const Json& row, const Json*) { return failure_cell(part, row); }));
   if (!part.cost.key.empty() && is_comparable(part) && methods_of(rows).size() > 1)
     tables.push_back(
-        matrix(part, rows, heading_of(part.cost) + ", relative to the first method",
+        matrix(part, rows, Content::costs,
+               heading_of(part.cost) + " of the first method, and of the others relative to it",
                [&](const Json& row, const Json* first) { return cost_cell(part, row, first); }));
   tables.push_back(all_rows(part, rows));
   return tables;
@@ -380,16 +379,15 @@ Json table_json(const StudyTable& table) {
   for (const std::vector<Cell>& row : table.rows) {
     Json line = Json::array();
     for (const Cell& cell : row) {
-      const double wrong = cell.wrong;
       if (cell.note.empty())
         line.push_back(cell.text);
       else
         line.push_back({{"text", cell.text},
                         {"title", cell.note},
-                        {"class", wrong == 0     ? ""
-                                  : wrong < 0.01 ? "some"
-                                  : wrong < 0.1  ? "many"
-                                                 : "most"}});
+                        {"class", cell.wrong == 0     ? ""
+                                  : cell.wrong < 0.01 ? "some"
+                                  : cell.wrong < 0.1  ? "many"
+                                                      : "most"}});
     }
     rows.push_back(line);
   }

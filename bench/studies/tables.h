@@ -11,11 +11,14 @@ namespace vitrel::bench {
 
 struct Cell {
   std::string text;
-  std::string note = {};  ///< that pages show beside it
+  std::string note = {};  ///< that HTML pages show beside it
   double wrong = 0;       ///< share of wrong answers
 };
 
+enum class Content { wrong_answers, costs, all_numbers };
+
 struct StudyTable {
+  Content content;
   std::string heading;
   std::vector<std::string> head;
   std::vector<std::vector<Cell>> rows;

@@ -33,7 +33,7 @@ bool cells_fit(const PeriodicBox<Dim>& box, double max_radius) {
 ///
 /// A particle changes its cell when its centre reaches a wall, and gains the particles in the 3^(D−1) cells ahead;
 /// nothing is stored per pair. In a gas a particle changes its neighbours many times between two collisions, and
-/// updating lists would cost more (docs/validation.md, speed of the engine).
+/// updating lists would cost more (docs/studies/engine.md).
 template <Body B>
 class CellNeighbors {
   static constexpr int dimension = B::dimension;

@@ -1,7 +1,8 @@
 """{seeds} runs of each system differ in nothing but their seed. The table has the scatter of the runs over their stated
 error, pooled over the points of a curve; the 95 % intervals of these ratios are {width:.2f} wide on average. All ratios lie
 between {LEAST} and {MOST}. Of all values {covered:.0%} are within one stated error of the mean, which should be 68 %.
-"none": most runs are too short for an error, and state none.
+"none": most runs are too short for an error, and state none. Columns that differ in a number n share a row, which has the
+smallest and the largest ratio.
 
 {bias}
 
@@ -11,6 +12,7 @@ between {LEAST} and {MOST}. Of all values {covered:.0%} are within one stated er
 import json
 import math
 import pathlib
+import re
 import statistics
 import tempfile
 import textwrap
@@ -153,6 +155,18 @@ def varies(values):
     return bool((spread > 1e-9 * numpy.abs(numpy.nanmean(values))).any())
 
 
+def families(quantities):
+    """Those that differ in numbers only, by the name that they share."""
+    found = {}
+    for quantity in sorted(quantities):
+        found.setdefault(re.sub(r"_\d+$", "_n", quantity), []).append(quantity)
+    return {name if len(of) > 1 else of[0]: of for name, of in found.items()}
+
+
+def range_of(texts):
+    return "–".join(sorted({min(texts), max(texts)})) if texts else ""
+
+
 def measure(build):
     judged, relaxation_times = {}, {}
     for system in SYSTEMS:
@@ -166,8 +180,8 @@ def measure(build):
     refused = [quantity for quantity, of_systems in judged.items() if any(one.refused for one in of_systems.values())]
     expect(not wrong, "errors do not cover: " + "; ".join(wrong))
     expect(len(refused) <= MOST_REFUSED, f"{len(refused)} quantities are refused: " + ", ".join(refused))
-    rows = [[quantity, *(of_systems[system].cell() if system in of_systems else "" for system in SYSTEMS)]
-            for quantity, of_systems in sorted(judged.items())]
+    rows = [[name, *(range_of([judged[one][system].cell() for one in quantities if system in judged[one]]) for system in SYSTEMS)]
+            for name, quantities in families(judged).items()]
     known = [one for of_systems in judged.values() for one in of_systems.values() if not one.refused]
     return {"seeds": len(SEEDS), "bias": bias_text(relaxation_times), "width": statistics.mean(one.high - one.low for one in known),
             "covered": statistics.mean(one.covered for one in known),

@@ -4,6 +4,7 @@ import json
 import math
 import pathlib
 import re
+import shutil
 import tempfile
 import textwrap
 import tomllib
@@ -14,8 +15,9 @@ from validation.comparison import toml
 TITLE = "The glass"
 PAGE = ROOT / "docs" / "glass.md"
 FIGURES = ROOT / "docs" / "figures" / "glass"
-DATA = ROOT / "docs" / "data" / "glass"  # of finished jobs the results; the rest stays on the machine that runs them
-QUICK = ROOT / "out" / "glass"
+DATA = ROOT / "docs" / "data" / "glass"  # tables of all runs; the runs stay on the machine that makes them
+RUNS = ROOT / "out" / "glass"
+QUICK = RUNS / "quick"
 
 LIQUIDS = {"glass_polydisperse": "ellipses, κ = 2", "glass_polydisperse_disks": "disks"}
 AGEING = "glass_fast"
@@ -47,7 +49,7 @@ class Study:
 
     def __init__(self, build, name, quick):
         self.build, self.name = build, name
-        self.folder = (QUICK if quick else DATA) / name.removeprefix("glass_")
+        self.folder = (QUICK if quick else RUNS) / name.removeprefix("glass_")
         self.parameters = reduced(name, QUICK) if quick else PARAMS / f"{name}.toml"
 
     def run(self):
@@ -62,8 +64,7 @@ class Study:
         return output_of([self.build / "app/vitrel", *map(str, inside)], cwd=ROOT)
 
     def analyze(self):
-        with tempfile.TemporaryDirectory() as folder:
-            summary = summary_of(self.build, "analyze", self.folder, "-o", pathlib.Path(folder, "results.h5"))
+        summary = summary_of(self.build, "analyze", self.folder)
         self.fits = summary["glass"]["fits"]
         verdicts = {self.key(run): run for run in summary["runs"]}
         self.jobs = sorted((Job(path.parent) for path in self.folder.glob("*/done.json")), key=lambda job: self.key(job.values))
@@ -110,10 +111,6 @@ class Job:
 
     def seconds(self):
         return self.done["prepare"]["wall_seconds"] + self.done["run"]["wall_seconds"]
-
-    def stage(self):
-        """The last stage of the preparation."""
-        return self.done["prepare"]["stages"][-1]
 
     def time(self, which):
         """A relaxation time and its error: "alpha", "cage" or "2"; nothing if it is not known."""
@@ -164,21 +161,6 @@ def number(value, error=None, digits=3):
         return "–"
     text = f"{value:.{digits}g}"
     return text if error is None or math.isnan(error) else f"{text} ± {error:.1g}"
-
-
-def time_text(job, which):
-    return number(*(job.time(which) or (None,)))
-
-
-def run_rows(study):
-    return [[f"{job.phi:g}", job.seed, f"{job.verdict['duration']:g}", time_text(job, "alpha"), time_text(job, "cage"),
-             time_text(job, "2"), job.verdict["verdict_translation"], job.verdict["verdict"],
-             job.stage()["decorrelations"], f"{job.stage()['wall_seconds']:.3g}", f"{job.done['run']['wall_seconds']:.3g}"]
-            for job in study.jobs]
-
-
-RUN_HEAD = ["φ", "seed", "duration", "τ_α", "τ_α, cage", "τ₂", "translation", "all", "decorrelations", "Monte Carlo / s",
-            "dynamics / s"]
 
 
 def density(fit):
@@ -267,26 +249,6 @@ def growth_text(study):
     return ", ".join(f"{name} {float(f'{factor:.2g}'):g}-fold (up to {highest:g})" for name, (factor, highest) in grown)
 
 
-def ageing_rows(study):
-    rows = []
-    for job in study.jobs:
-        waits = job.tables["waiting_times"]
-        for k, waited in enumerate(waits["waiting_time"], start=1):
-            rows.append([f"{job.phi:g}", job.seed, f"{waited:g}", number(waits["nematic_length"][k - 1]),
-                         *(fallen(job.ageing(f"{name}_{k}")) for name in ("fs", "l")),
-                         number(job.ageing(f"msd_{k}")[-1][1]), number(job.ageing(f"msr_{k}")[-1][1])])
-    return rows
-
-
-def fallen(points):
-    """The time at which a correlation has fallen to 1/e, or how far it has at the longest time."""
-    for (before, above), (after, below) in zip(points, points[1:]):
-        if above > 1 / math.e >= below:
-            return number(before * (after / before) ** ((above - 1 / math.e) / (above - below)))
-    time, value = points[-1]
-    return f"< {number(points[0][0])}" if points[0][1] <= 1 / math.e else f"{value:.2f} at {time:g}"
-
-
 def domains_text(study):
     """The length of the domains at the lowest and the highest density, as made and at the last waiting time."""
     lengths = []
@@ -347,19 +309,27 @@ def wrapped(text):
 
 def page(liquids, ageing):
     text = (ROOT / "scripts/validation/glass_page.txt").read_text(encoding="utf-8")
-    values = {"ageing": table(["φ", "seed", "t_w", "ξ", "τ_α", "τ₂", "MSD at the end", "MSR at the end"], ageing_rows(ageing)),
-              "hours": f"{sum(study.seconds() for study in (*liquids, ageing)) / 3600:.1f}",
+    values = {"hours": f"{sum(study.seconds() for study in (*liquids, ageing)) / 3600:.1f}",
               "order": " ".join(filter(None, (order_by(liquids[0], law) for law in NAMES))) or NO_ORDER.capitalize(),
               "answer": answer(liquids[0]),
               "ratio": ratios(liquids[0], "alpha"), "cage_ratio": ratios(liquids[0], "cage"), "domains": domains_text(ageing)}
     window, stops = stop_rows(ageing)
     values |= {"window": f"{window:g}", "stops": table(["t_w", "rotation stops at φ", "translation stops at φ"], stops)}
     for study, key in zip(liquids, ("ellipses", "disks")):
-        values |= {f"runs_{key}": table(RUN_HEAD, run_rows(study)), f"fits_{key}": table(FIT_HEAD, fit_rows(study)),
+        values |= {f"fits_{key}": table(FIT_HEAD, fit_rows(study)),
                    f"growth_{key}": growth_text(study), f"conclusion_{key}": conclusion(study, key)}
     for key, value in values.items():
         text = text.replace(f"@{key}@", value)
     return wrapped(text)
+
+
+def save_tables(studies):
+    """What every run gave, and the fits."""
+    for study in studies:
+        folder = DATA / study.name.removeprefix("glass_")
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in ("runs", "relaxation", "glass_fit"):
+            shutil.copy(study.folder / "results" / f"{name}.csv", folder)
 
 
 def draw(liquids, ageing, folder):
@@ -382,10 +352,11 @@ def measure(build):
         growth, densest = study.growth("cage")
         expect(growth >= MIN_GROWTH, f"{study.name}: times grow only {growth:.3g}-fold up to {densest}")
     draw(liquids, ageing, FIGURES)
+    save_tables([*liquids, ageing])
     PAGE.write_text(page(liquids, ageing), encoding="utf-8")
-    return """This command writes [The glass](glass.md), from the results in docs/data/glass and from the jobs that are missing
-there, which it runs. `--status` tells which are; `--quick` goes through the whole chain with fewer particles and densities
-and writes to out/glass."""
+    return """This command writes [The glass](glass.md), from the runs in out/glass and those that are missing
+there, which it makes. `--status` tells which are; `--quick` goes through the whole chain with fewer particles and densities
+and writes to out/glass/quick."""
 
 
 def quick(build):

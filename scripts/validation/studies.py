@@ -171,10 +171,9 @@ def write(build, name):
         made = pathlib.Path(folder, name, name)
         data = json.loads(made.with_suffix(".json").read_text(encoding="utf-8"))
         CHECKS[name]({part["name"]: part["rows"] for part in data["parts"]})
-        FOLDER.mkdir(exist_ok=True)
+        save_charts(made.with_suffix(".html"), FOLDER / name)
         text = made.with_suffix(".md").read_text(encoding="utf-8")
         FOLDER.joinpath(f"{name}.md").write_text(text, encoding="utf-8")
-        save_charts(made.with_suffix(".html"), FOLDER / name)
     return f"- [{data['question']}](studies/{name}.md)"
 
 
