@@ -24,7 +24,7 @@ AGEING = "glass_fast"
 STUDIES = [*LIQUIDS, AGEING]
 LOWEST = 0.60  # the packing fraction that times are relative to
 STUDENT = {2: 1.837, 3: 1.321, 4: 1.197}  # standard errors from so many seeds, times this, cover 68.3 %
-MIN_GROWTH = 1e3  # of τ_α relative to the cage, of both liquids
+MIN_GROWTH = 300  # of τ_α relative to the cage, of both liquids
 
 
 # ---- running ----------------------------------------------------------------------------------------------
@@ -239,7 +239,7 @@ def ratios(study, which):
 def answer(study):
     """To the question of the page, in the first paragraph."""
     known = " ".join(filter(None, (order_by(study, law) for law in NAMES)))
-    return (f"For ellipses of aspect ratio 2: {growth_text(study)} from φ = {LOWEST:g} on, and the ratio of τ₂ and τ_α relative to "
+    return (f"Times of ellipses of aspect ratio 2 grow from φ = {LOWEST:g} on: {growth_text(study)}. The ratio of τ₂ and τ_α relative to "
             f"the cage {ratios(study, 'cage')}. " + (known or "At which density either would stop, these times do not say: " + NO_ORDER))
 
 

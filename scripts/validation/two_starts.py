@@ -1,5 +1,5 @@
-"""N = 1000 particles with sizes σ distributed as σ⁻³ (23 %), at the highest density of the [study of the
-glass](glass.md) and 0.01 above it. One state is compressed from random places at φ = 0.3 by growth at the rate 0.01,
+"""N = 1000 particles with sizes σ distributed as σ⁻³ (23 %), a little above the highest density of the
+[study of the glass](glass.md). One state is compressed from random places at φ = 0.3 by growth at the rate 0.01,
 the other one expanded from a state that is {EXCESS} denser, prepared by growth that alternates with event chains and
 collective exchanges. Then both are sampled by event chains with four steps of collective exchanges per particle and
 sweep: everything is measured {SAMPLES} times, {APART} decorrelations of places, orientations and sizes apart

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <type_traits>
+
+#include "core/geometry/ellipse.h"
+#include "core/geometry/ellipsoid.h"
+
+/// @file
+/// What states, files, Monte Carlo, dynamics, analysis and pages know of the shape of a particle: the concept Body
+/// (body.h), and
+///
+///     half_lengths()             half the sides of the smallest box along its own axes that contains it
+///     size()                     the length that its species call its size
+///     natural_mass()             that at the density of a round particle of radius 1 and mass 1
+///     is_round(), rotations()    whether turns are visible; how many of them smooth collisions change
+///     symmetry_axis()            in space: about which turns are not visible, or no_axis
+///     inertia_per_mass()         about the own axes
+///     fits_into(other)           whether it lies within another of the same centre and orientation
+///     scaled(shape, factor)      the same shape of another size
+namespace vitrel {
+
+template <int Dim>
+using ParticleShape = std::conditional_t<Dim == 2, Ellipse, Ellipsoid>;
+
+template <int Dim>
+ParticleShape<Dim> round_shape(double radius) {
+  if constexpr (Dim == 2)
+    return {radius, radius};
+  else
+    return {Vec3::Constant(radius)};
+}
+
+}  // namespace vitrel
