@@ -38,7 +38,7 @@ double thermal_spin(const Configuration2& configuration, std::size_t i, Contacts
 
 Vec3 thermal_spin(const Configuration3& configuration, std::size_t i, Contacts contacts,
                   Stream& draw) {
-  const Ellipsoid& shape = configuration.shape[i];
+  const ParticleShape<3>& shape = configuration.shape[i];
   if (rotations(shape, contacts) == 0) return Vec3::Zero();
   const Vec3 inertia = configuration.inertia(i);
   Vec3 own;
@@ -47,7 +47,7 @@ Vec3 thermal_spin(const Configuration3& configuration, std::size_t i, Contacts c
                  ? 0
                  : draw.normal() / std::sqrt(inertia[k]);
   // The part along the axis of a spheroid is L/I⊥ (ellipsoid.h).
-  if (const int axis = shape.symmetry_axis(); axis != Ellipsoid::none)
+  if (const int axis = shape.symmetry_axis(); axis != no_axis)
     own[axis] /= std::sqrt(spin_factor(shape));
   return configuration.orientation[i] * own;
 }

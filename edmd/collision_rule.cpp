@@ -2,20 +2,20 @@
 
 namespace vitrel {
 
-Inertia<2> inertia_of(const Ellipse& shape, double mass) {
+Inertia<2> inertia_of(const ParticleShape<2>& shape, double mass) {
   return {1 / mass, shape.is_round() ? 0 : 1 / (mass * shape.inertia_per_mass())};
 }
 
-Inertia<3> inertia_of(const Ellipsoid& shape, double mass) {
+Inertia<3> inertia_of(const ParticleShape<3>& shape, double mass) {
   if (shape.is_round()) return {1 / mass, Mat3::Zero()};
   return {1 / mass, (mass * shape.inertia_per_mass()).cwiseInverse().asDiagonal()};
 }
 
-Inertia<2> full_inertia_of(const Ellipse& shape, double mass) {
+Inertia<2> full_inertia_of(const ParticleShape<2>& shape, double mass) {
   return {1 / mass, 1 / (mass * shape.inertia_per_mass())};
 }
 
-Inertia<3> full_inertia_of(const Ellipsoid& shape, double mass) {
+Inertia<3> full_inertia_of(const ParticleShape<3>& shape, double mass) {
   return {1 / mass, (mass * shape.full_inertia_per_mass()).cwiseInverse().asDiagonal()};
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "core/geometry/ellipse.h"
-#include "core/geometry/ellipsoid.h"
+#include "core/geometry/particle_shape.h"
 #include "edmd/contact_law.h"
 
 /// @file
@@ -46,11 +45,11 @@ struct Inertia {
 };
 
 /// The same in the body frame, at size 1.
-Inertia<2> inertia_of(const Ellipse& shape, double mass);
-Inertia<3> inertia_of(const Ellipsoid& shape, double mass);
+Inertia<2> inertia_of(const ParticleShape<2>& shape, double mass);
+Inertia<3> inertia_of(const ParticleShape<3>& shape, double mass);
 /// With all true moments.
-Inertia<2> full_inertia_of(const Ellipse& shape, double mass);
-Inertia<3> full_inertia_of(const Ellipsoid& shape, double mass);
+Inertia<2> full_inertia_of(const ParticleShape<2>& shape, double mass);
+Inertia<3> full_inertia_of(const ParticleShape<3>& shape, double mass);
 /// The space-frame inertia of a body of this size from its body-frame inertia.
 Inertia<2> in_space(const Inertia<2>& own, const Pose2& pose, double size);
 Inertia<3> in_space(const Inertia<3>& own, const Pose3& pose, double size);

@@ -30,7 +30,7 @@ template <int Dim>
 EngineOptions with_neighbor_search(const Configuration<Dim>& configuration, EngineOptions options) {
   if (options.neighbors) return options;
   double max_radius = 0;
-  for (const Solid<Dim>& shape : configuration.shape)
+  for (const ParticleShape<Dim>& shape : configuration.shape)
     max_radius = std::max(max_radius, shape.circumradius());
   const double per_cell = static_cast<double>(configuration.size()) / configuration.box.volume() *
                           power(min_cell_width(max_radius), Dim);
@@ -58,7 +58,7 @@ std::unique_ptr<Engine3> make_engine(const Configuration3& configuration,
   if (options.growth_rate != 0)
     return all_round ? make_growing_sphere_engine(options) : make_growing_ellipsoid_engine(options);
   if (all_round) return make_sphere_engine(with_neighbor_search(configuration, options));
-  const bool some_scalene = std::ranges::any_of(configuration.shape, &Ellipsoid::is_scalene);
+  const bool some_scalene = std::ranges::any_of(configuration.shape, &ParticleShape<3>::is_scalene);
   return options.rotation == FreeRotation::euler && some_scalene
              ? make_tumbling_ellipsoid_engine(options)
              : make_ellipsoid_engine(options);

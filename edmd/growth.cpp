@@ -245,7 +245,7 @@ class Growth {
   Configuration<Dim>& configuration_;
   const GrowthOptions& options_;
   GrowthState& state_;
-  const std::vector<Solid<Dim>> shapes_;
+  const std::vector<ParticleShape<Dim>> shapes_;
   const double typical_time_;
   const double start_time_, start_fraction_;
   const double translations_, rotations_;  // energies at kT = 1, half the degrees of freedom

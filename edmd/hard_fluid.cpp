@@ -60,7 +60,7 @@ HardFluid::Averages HardFluid::averages_of(const Configuration<Dim>& c, std::siz
   static const std::vector<Vec<Dim>> normals = directions<Dim>();
   const bool is_round = c.shape[i].is_round();  // then all directions say the same
   const std::span<const Vec<Dim>> seen = std::span(normals).first(is_round ? 1 : normals.size());
-  const Vec<Dim> axes = semi_axes_of(c.shape[i]);
+  const Vec<Dim> axes = c.shape[i].half_lengths();
   const auto inertia = c.inertia(i);
   const double weight = 1.0 / static_cast<double>(seen.size());
   Averages one;

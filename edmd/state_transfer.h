@@ -17,26 +17,21 @@ namespace vitrel {
 
 namespace detail {
 
-/// The shape at size 1 for the semi-axes in a configuration.
-template <class Shape, class Axes>
-Shape shape_from(const Axes& semi_axes) {
-  if constexpr (std::is_convertible_v<Axes, Shape>)
-    return semi_axes;
+/// The shape at size 1 in the form that the simulation takes.
+template <class Shape>
+Shape shape_from(const ParticleShape<Shape::dimension>& of_particle) {
+  if constexpr (std::is_same_v<Shape, ParticleShape<Shape::dimension>>)
+    return of_particle;
   else
-    return {semi_axes.circumradius()};
+    return {of_particle.circumradius()};
 }
-
-inline Ellipse particle_shape(const Ellipse& shape) {
-  return shape;
-}
-inline Ellipsoid particle_shape(const Ellipsoid& shape) {
-  return shape;
-}
-inline Ellipse particle_shape(const Disk& shape) {
-  return {shape.radius, shape.radius};
-}
-inline Ellipsoid particle_shape(const Sphere& shape) {
-  return {Vec3::Constant(shape.radius)};
+/// The same back.
+template <class Shape>
+ParticleShape<Shape::dimension> particle_shape(const Shape& shape) {
+  if constexpr (std::is_same_v<Shape, ParticleShape<Shape::dimension>>)
+    return shape;
+  else
+    return round_shape<Shape::dimension>(shape.radius);
 }
 
 /// The magnitude of an angle, which determines its rounding error: unwrapped angles grow, quaternions stay normalised.
@@ -107,17 +102,17 @@ void SimulationState<B>::load_types(const Configuration<dimension>& configuratio
   types.clear();
   std::vector<std::uint32_t> index;
   for (const Index k : external_id) {
-    const Solid<dimension>& semi_axes = configuration.shape[k];
+    const ParticleShape<dimension>& of_particle = configuration.shape[k];
     const double mass = configuration.mass[k];
-    const Vec<dimension> lengths = semi_axes_of(semi_axes);
+    const Vec<dimension> lengths = of_particle.half_lengths();
     std::vector<double> numbers(lengths.begin(), lengths.end());
     numbers.push_back(mass);
     const auto [place, is_new] = known.try_emplace(std::move(numbers), types.size());
     index.push_back(place->second);
     if (!is_new) continue;
-    const auto shape = detail::shape_from<Shape>(semi_axes);
+    const auto shape = detail::shape_from<Shape>(of_particle);
     shapes.push_back(shape);
-    types.push_back({ShapeCoefficients<Shape>(shape), inertia_of(semi_axes, mass)});
+    types.push_back({ShapeCoefficients<Shape>(shape), inertia_of(of_particle, mass)});
   }
   type_index = TypeIndex(std::move(index), types.size());
 }
@@ -225,7 +220,7 @@ auto SimulationState<B>::with_scaled_spin(Index i, const Vector& angular_velocit
     requires(B::dimension == 3) {
   const auto& body = shape(i);
   const int axis = body.symmetry_axis();
-  if (axis == Ellipsoid::none) return angular_velocity;
+  if (axis == no_axis) return angular_velocity;
   const Vector a = particles[i].orientation() * Vector::Unit(axis);
   const double factor = to_true ? spin_factor(body) : 1 / spin_factor(body);
   return angular_velocity + (factor - 1) * dot(a, angular_velocity) * a;

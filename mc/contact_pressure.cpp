@@ -23,8 +23,8 @@ std::vector<double> contact_excesses(const Configuration<Dim>& configuration, do
   const double reach = root(1 + window, Dim);
   std::vector<double> excesses;
   for_each_pair(configuration, reach, [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
-    const Solid<Dim>& one = configuration.shape[i];
-    const Solid<Dim>& two = configuration.shape[j];
+    const ParticleShape<Dim>& one = configuration.shape[i];
+    const ParticleShape<Dim>& two = configuration.shape[j];
     if (separated(scaled(one, reach), configuration.pose(i), scaled(two, reach),
                   configuration.pose(j), d, 0))
       return;

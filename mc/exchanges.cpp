@@ -8,18 +8,9 @@ namespace vitrel {
 
 namespace {
 
-OrientedEllipse with_shape(const OrientedEllipse& body, const Ellipse& shape) {
-  return {shape, body.axis};
-}
-OrientedEllipsoid with_shape(const OrientedEllipsoid& body, const Ellipsoid& shape) {
-  return {shape, body.orientation};
-}
-
-bool fits_into(const Ellipse& one, const Ellipse& other) {
-  return one.a <= other.a && one.b <= other.b;
-}
-bool fits_into(const Ellipsoid& one, const Ellipsoid& other) {
-  return (one.semi_axes.array() <= other.semi_axes.array()).all();
+template <int Dim>
+OrientedBody<Dim> with_shape(const OrientedBody<Dim>& body, const ParticleShape<Dim>& shape) {
+  return {shape, axes_of(body)};
 }
 
 }  // namespace
@@ -37,14 +28,14 @@ Exchanges<Dim>::Exchanges(HardParticles<Dim>& particles, const ExchangeOptions& 
 }
 
 template <int Dim>
-const Solid<Dim>& Exchanges<Dim>::shape_of_rank(std::size_t rank) const {
+const ParticleShape<Dim>& Exchanges<Dim>::shape_of_rank(std::size_t rank) const {
   return particles_.configuration().shape[by_rank_[rank]];
 }
 
 template <int Dim>
 bool Exchanges<Dim>::is_nested() const {
   for (std::size_t rank = 1; rank < by_rank_.size(); ++rank)
-    if (!fits_into(shape_of_rank(rank - 1), shape_of_rank(rank))) return false;
+    if (!shape_of_rank(rank - 1).fits_into(shape_of_rank(rank))) return false;
   return true;
 }
 
@@ -133,7 +124,7 @@ std::size_t Exchanges<Dim>::sure_steps(std::size_t rank, std::size_t most,
   const std::size_t active = by_rank_[rank];
   const auto& body = particles_.bodies()[active];
   const auto succeed = [&](std::size_t steps) {
-    return particles_.is_clear_as(active, with_shape(body, shape_of_rank(rank + steps)),
+    return particles_.is_clear_as(active, with_shape<Dim>(body, shape_of_rank(rank + steps)),
                                   particles_.margin(), tests);
   };
   std::size_t sure = 0, not_sure = most + 1;

@@ -67,7 +67,7 @@ class Exchanges {
 
  private:
   std::uint64_t per_sweep(double per_particle) const;
-  const Solid<Dim>& shape_of_rank(std::size_t rank) const;
+  const ParticleShape<Dim>& shape_of_rank(std::size_t rank) const;
   bool is_nested() const;
   std::size_t sure_steps(std::size_t rank, std::size_t most, OverlapTestCounts& tests);
   std::size_t sure_round_steps(std::size_t rank, std::size_t most) const;

@@ -14,7 +14,7 @@ namespace {
 
 /// `orientation` is whatever `separated` takes for this shape.
 template <int Dim, class Axes>
-bool own_images_separated(const PeriodicBox<Dim>& box, const Solid<Dim>& shape,
+bool own_images_separated(const PeriodicBox<Dim>& box, const ParticleShape<Dim>& shape,
                           const Axes& orientation, double margin) {
   bool clear = true;
   box.for_each_image(Vec<Dim>::Zero(), 2 * shape.circumradius() + margin,
@@ -33,12 +33,12 @@ double hard_margin(const Configuration<Dim>& configuration) {
                                 largest_circumradius(configuration));
 }
 
-bool clear_of_periodic_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
-                              double margin) {
+bool clear_of_periodic_images(const PeriodicBox<2>& box, const ParticleShape<2>& shape,
+                              const Vec2& axis, double margin) {
   return own_images_separated<2>(box, shape, axis, margin);
 }
 
-bool clear_of_periodic_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
+bool clear_of_periodic_images(const PeriodicBox<3>& box, const ParticleShape<3>& shape,
                               const Quaternion& orientation, double margin) {
   return own_images_separated<3>(box, shape, orientation, margin);
 }
@@ -62,8 +62,8 @@ template <int Dim>
 double shrink_to_contact(const Configuration<Dim>& configuration, double lowest) {
   double factor = lowest;
   for_each_pair(configuration, 1 / lowest, [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
-    const Solid<Dim>& one = configuration.shape[i];
-    const Solid<Dim>& two = configuration.shape[j];
+    const ParticleShape<Dim>& one = configuration.shape[i];
+    const ParticleShape<Dim>& two = configuration.shape[j];
     // The circumcircles touch at a smaller factor than the largest found: this pair cannot matter.
     const double circles = one.circumradius() + two.circumradius();
     if (circles * circles < factor * factor * squared_norm(d)) return;

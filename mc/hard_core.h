@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/elementary.h"
-#include "core/geometry/ellipse.h"
 #include "core/state/configuration.h"
 
 /// @file
@@ -17,9 +16,9 @@ template <int Dim>
 double hard_margin(const Configuration<Dim>& configuration);
 
 /// Whether a particle keeps the margin to its own periodic images.
-bool clear_of_periodic_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
-                              double margin);
-bool clear_of_periodic_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
+bool clear_of_periodic_images(const PeriodicBox<2>& box, const ParticleShape<2>& shape,
+                              const Vec2& axis, double margin);
+bool clear_of_periodic_images(const PeriodicBox<3>& box, const ParticleShape<3>& shape,
                               const Quaternion& orientation, double margin);
 
 /// The first pair closer than the margin, if any.

@@ -31,7 +31,7 @@ void swap_orientations(OrientedEllipsoid& one, OrientedEllipsoid& two) {
 template <int Dim>
 double smallest_inradius(const Configuration<Dim>& configuration) {
   double smallest = configuration.shape.front().inradius();
-  for (const Solid<Dim>& shape : configuration.shape)
+  for (const ParticleShape<Dim>& shape : configuration.shape)
     smallest = std::min(smallest, shape.inradius());
   return smallest;
 }
@@ -186,7 +186,7 @@ void HardParticles<Dim>::exchange(std::size_t i, std::size_t j) {
 }
 
 template <int Dim>
-bool HardParticles<Dim>::try_reshape(std::size_t i, const Solid<Dim>& shape,
+bool HardParticles<Dim>::try_reshape(std::size_t i, const ParticleShape<Dim>& shape,
                                      OverlapTestCounts& tests) {
   if (shape.circumradius() > largest_) {
     largest_ = shape.circumradius();

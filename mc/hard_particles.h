@@ -94,7 +94,7 @@ class HardParticles {
   void exchange(std::size_t i, std::size_t j);
   /// Replaces the shape of particle i if it then keeps twice the margin to all others (twice, so that a later scaling of
   /// all lengths keeps the margin in spite of rounding).
-  bool try_reshape(std::size_t i, const Solid<Dim>& shape, OverlapTestCounts& tests);
+  bool try_reshape(std::size_t i, const ParticleShape<Dim>& shape, OverlapTestCounts& tests);
   /// Scales the sides of the box and all positions by these factors; shapes and orientations stay. Tests every pair
   /// twice, on this number of threads.
   bool try_rescale(const Vec<Dim>& factors, int threads, OverlapTestCounts& tests);

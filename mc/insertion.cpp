@@ -52,11 +52,11 @@ Pose3 random_pose(const PeriodicBox<3>& box, bool aligned, Stream& draw) {
 }
 
 /// The pose with its axis along u or −u.
-void turn_to(const Ellipse&, const Vec2& u, Pose2& pose) {
+void turn_to(const ParticleShape<2>&, const Vec2& u, Pose2& pose) {
   pose.angle = polar_angle(u.y(), u.x());
 }
 /// By the smallest rotation, so that a random orientation stays random around u.
-void turn_to(const Ellipsoid& shape, const Vec3& u, Pose3& pose) {
+void turn_to(const ParticleShape<3>& shape, const Vec3& u, Pose3& pose) {
   const Vec3 axis = figure_axis(shape, pose.orientation);
   const Vec3 near = dot(axis, u) < 0 ? Vec3(-u) : u;
   const Vec3 across = axis.cross(near);
@@ -109,7 +109,7 @@ class Insertion {
 
  private:
   bool fits(std::size_t i, const Pose<Dim>& pose) const {
-    const Solid<Dim>& shape = configuration_.shape[i];
+    const ParticleShape<Dim>& shape = configuration_.shape[i];
     const double reach = shape.circumradius() + largest_ + margin_;
     const auto clear_of = [&](std::size_t j, const Shift<Dim>&, const Vec<Dim>& d) {
       return separated(shape, pose, configuration_.shape[j], configuration_.pose(j), d, margin_);

@@ -131,21 +131,21 @@ Counts<Dim> place(Configuration<Dim>& configuration, const Lattice<Dim>& lattice
 
 /// The longest semi-axis of any particle along each direction.
 template <int Dim>
-Vec<Dim> largest_semi_axes(const Configuration<Dim>& configuration) {
+Vec<Dim> largest_half_lengths(const Configuration<Dim>& configuration) {
   Vec<Dim> largest = Vec<Dim>::Zero();
-  for (const Solid<Dim>& shape : configuration.shape)
-    largest = largest.cwiseMax(semi_axes_of(shape));
+  for (const ParticleShape<Dim>& shape : configuration.shape)
+    largest = largest.cwiseMax(shape.half_lengths());
   return largest;
 }
 
 Lattice<2> lattice_of(Arrangement arrangement, const Configuration2& configuration) {
   if (arrangement == Arrangement::square) return {{1, 1}, {0, 0}, {false, false}};
-  const Vec2 axes = largest_semi_axes(configuration);
+  const Vec2 axes = largest_half_lengths(configuration);
   return {{1, 0.5 * std::numbers::sqrt3 * axes.y() / axes.x()}, {0.25, 0}, {false, true}};
 }
 
 Lattice<3> lattice_of(Arrangement arrangement, const Configuration3& configuration) {
-  const Vec3 axes = largest_semi_axes(configuration);
+  const Vec3 axes = largest_half_lengths(configuration);
   const auto stretched = [&](const Vec3& spacing) -> Vec3 { return spacing.cwiseProduct(axes); };
   switch (arrangement) {
     case Arrangement::face_centred:

@@ -24,7 +24,7 @@ PlaceCorrelation<Dim>::PlaceCorrelation(const Configuration<Dim>& first)
     : first_(first), cells_(make_cells(first)), rotors_(static_cast<double>(rotor_count(first))) {
   const auto n = static_cast<double>(first.size());
   double mean = 0;
-  for (const Solid<Dim>& shape : first.shape) {
+  for (const ParticleShape<Dim>& shape : first.shape) {
     deviation_.push_back(root(shape.volume(), Dim));
     mean += deviation_.back() / n;
   }

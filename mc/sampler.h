@@ -57,7 +57,7 @@ class Sampler {
   void tune();
 
   /// HardParticles::try_reshape and try_rescale.
-  bool reshape(std::size_t i, const Solid<Dim>& shape) {
+  bool reshape(std::size_t i, const ParticleShape<Dim>& shape) {
     return particles_.try_reshape(i, shape, overlap_tests_);
   }
   bool rescale(const Vec<Dim>& factors) {

@@ -145,7 +145,7 @@ class Swelling {
 
   Configuration<Dim>& configuration_;
   const SwellingOptions& options_;
-  const std::vector<Solid<Dim>> shapes_;
+  const std::vector<ParticleShape<Dim>> shapes_;
   const std::uint64_t seed_;
   SwellingState& state_;
 };

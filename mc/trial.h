@@ -39,10 +39,10 @@ inline double share_above(std::uint64_t word, double least) {
 template <int Dim>
 using OrientedBody = std::conditional_t<Dim == 2, OrientedEllipse, OrientedEllipsoid>;
 
-inline OrientedEllipse oriented(const Ellipse& shape, double angle) {
+inline OrientedEllipse oriented(const ParticleShape<2>& shape, double angle) {
   return {shape, direction(angle)};
 }
-inline OrientedEllipsoid oriented(const Ellipsoid& shape, const Quaternion& orientation) {
+inline OrientedEllipsoid oriented(const ParticleShape<3>& shape, const Quaternion& orientation) {
   return {shape, orientation};
 }
 
@@ -63,12 +63,12 @@ inline std::vector<Quaternion>& orientations(Configuration3& configuration) {
 }
 
 /// The orientation after a rotation. In the plane by the first component.
-inline double rotated(const Ellipse&, double angle, const Vec2& turn) {
+inline double rotated(const ParticleShape<2>&, double angle, const Vec2& turn) {
   return angle + turn[0];
 }
 /// In space by a vector in the own frame; rotations of a spheroid about its axis are none.
-inline Quaternion rotated(const Ellipsoid& shape, const Quaternion& orientation, Vec3 turn) {
-  if (const int axis = shape.symmetry_axis(); axis != Ellipsoid::none) turn[axis] = 0;
+inline Quaternion rotated(const ParticleShape<3>& shape, const Quaternion& orientation, Vec3 turn) {
+  if (const int axis = shape.symmetry_axis(); axis != no_axis) turn[axis] = 0;
   return normalized(orientation * rotation(turn));
 }
 

@@ -30,7 +30,7 @@ class Classes {
     }
     // Particles that are equal in this are told apart by their number.
     const auto key = [&](std::size_t i) {
-      const Solid<Dim>& shape = configuration_.shape[i];
+      const ParticleShape<Dim>& shape = configuration_.shape[i];
       return std::pair(halvings % 2 == 0 ? shape.volume() : shape.circumradius(), i);
     };
     const std::size_t half = particles.size() / 2;
@@ -41,7 +41,7 @@ class Classes {
   }
 
   bool have_one_shape(std::span<const std::size_t> particles) const {
-    const Solid<Dim>& first = configuration_.shape[particles.front()];
+    const ParticleShape<Dim>& first = configuration_.shape[particles.front()];
     return std::ranges::all_of(particles,
                                [&](std::size_t i) { return configuration_.shape[i] == first; });
   }

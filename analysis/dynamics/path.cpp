@@ -18,11 +18,11 @@ Quaternion orientation_at(const Track<3>& track, std::size_t k) {
 }
 
 /// In the frame of the body: the figure axis, or all three from the longest to the shortest.
-std::vector<Vec3> body_axes(const Ellipsoid& shape, std::size_t count) {
+std::vector<Vec3> body_axes(const ParticleShape<3>& shape, std::size_t count) {
   if (count == 1) return {figure_axis(shape, Quaternion::Identity())};
   std::array<int, 3> order{};
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, std::greater<>{}, [&](int k) { return shape.semi_axes[k]; });
+  std::ranges::stable_sort(order, std::greater<>{}, [&](int k) { return shape.half_lengths()[k]; });
   std::vector<Vec3> axes;
   for (const int k : order) axes.push_back(Vec3::Unit(k));
   return axes;
@@ -38,7 +38,7 @@ FrameSeries unwrapped(FrameSeries angle, double period, double& largest_turn) {
   return angle;
 }
 
-void follow(Path<2>& path, const Track<2>& track, const Ellipse&, std::size_t) {
+void follow(Path<2>& path, const Track<2>& track, const ParticleShape<2>&, std::size_t) {
   const FrameSeries& angle = track.orientation[0];
   const double period = track.turn_period;
   path.turn[0] = period == 0 ? angle : unwrapped(angle, period, path.largest_turn);
@@ -49,7 +49,7 @@ void follow(Path<2>& path, const Track<2>& track, const Ellipse&, std::size_t) {
   }
 }
 
-void follow(Path<3>& path, const Track<3>& track, const Ellipsoid& shape, std::size_t axes) {
+void follow(Path<3>& path, const Track<3>& track, const ParticleShape<3>& shape, std::size_t axes) {
   const std::vector<Vec3> in_body = body_axes(shape, axes);
   path.directions.resize(in_body.size());
   Vec3 sum = Vec3::Zero();
@@ -85,14 +85,17 @@ std::size_t axis_count(const Configuration2&) {
 
 template <>
 std::size_t axis_count(const Configuration3& configuration) {
-  const bool has_spheroids = std::ranges::any_of(configuration.shape, [](const Ellipsoid& shape) {
-    return !shape.is_round() && !shape.is_scalene();
-  });
-  return !has_spheroids && std::ranges::any_of(configuration.shape, &Ellipsoid::is_scalene) ? 3 : 1;
+  const bool has_spheroids = std::ranges::any_of(
+      configuration.shape,
+      [](const ParticleShape<3>& shape) { return !shape.is_round() && !shape.is_scalene(); });
+  return !has_spheroids && std::ranges::any_of(configuration.shape, &ParticleShape<3>::is_scalene)
+             ? 3
+             : 1;
 }
 
 template <int Dim>
-Path<Dim>::Path(Track<Dim> track, const Solid<Dim>& shape, std::size_t axes, std::size_t its_stride)
+Path<Dim>::Path(Track<Dim> track, const ParticleShape<Dim>& shape, std::size_t axes,
+                std::size_t its_stride)
     : stride(its_stride), column((track.position[0].size() + stride - 1) / stride) {
   if (!shape.is_round()) follow(*this, track, shape, axes);
   position = std::move(track.position);

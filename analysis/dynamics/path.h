@@ -37,7 +37,7 @@ struct Path {
 
   /// `axes` as given by axis_count. Of frames first, first + stride … the numbers lie one after the other, for first =
   /// 0, then 1 …: origins and ends of a time difference are then two pieces of memory.
-  Path(Track<Dim> track, const Solid<Dim>& shape, std::size_t axes, std::size_t stride = 1);
+  Path(Track<Dim> track, const ParticleShape<Dim>& shape, std::size_t axes, std::size_t stride = 1);
 
   bool is_rotor() const { return !directions.empty(); }
   /// Where the number of a frame is.

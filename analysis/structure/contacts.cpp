@@ -98,7 +98,7 @@ template <int Dim>
 double mean_diameter(const Configuration<Dim>& configuration) {
   constexpr double of_unit = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
   double sum = 0;
-  for (const Solid<Dim>& shape : configuration.shape)
+  for (const ParticleShape<Dim>& shape : configuration.shape)
     sum += 2 * std::pow(shape.volume() / of_unit, 1.0 / Dim);
   return sum / static_cast<double>(configuration.size());
 }

@@ -82,11 +82,7 @@ double distance_from_lattice(const Mat3& sigma, const Vec3& r, const Vec3& lengt
 
 }  // namespace
 
-Vec3 half_extents(const Ellipsoid& body, const Quaternion& orientation) {
-  return (orientation.toRotationMatrix() * body.semi_axes.asDiagonal()).rowwise().norm();
-}
-
-bool meets_box(const Ellipsoid& body, const Pose3& pose, const PeriodicBox<3>& box) {
+bool meets_box(const ParticleShape<3>& body, const Pose3& pose, const PeriodicBox<3>& box) {
   const Vec3 half = 0.5 * box.lengths();
   const Vec3 d = -pose.position;
   const Mat3 sigma = shape_matrix(body, pose.orientation);

@@ -13,10 +13,6 @@
 /// opposite faces.
 namespace vitrel {
 
-/// √Σ_kk, Σ the shape matrix: how far the body reaches from its centre along the axes of space. It
-/// touches the plane x_k = β iff |β − r_k| = √Σ_kk.
-Vec3 half_extents(const Ellipsoid& body, const Quaternion& orientation);
-
 /// Whether body and box have a point in common; a body that only touches the box may be judged either way
 /// by rounding.
 ///
@@ -25,7 +21,7 @@ Vec3 half_extents(const Ellipsoid& body, const Quaternion& orientation);
 /// is d_Cᵀ Σ_CC⁻¹ d_C, at the free coordinates x_F = r_F + Σ_FC Σ_CC⁻¹ d_C (the marginal and the conditional
 /// mean of a Gaussian of covariance Σ). Of these 27 values that of the least is exact whose point lies in the
 /// box.
-bool meets_box(const Ellipsoid& body, const Pose3& pose, const PeriodicBox<3>& box);
+bool meets_box(const ParticleShape<3>& body, const Pose3& pose, const PeriodicBox<3>& box);
 
 /// The body of `particle`, seen at r + shift ∘ L.
 struct BodyInBox {

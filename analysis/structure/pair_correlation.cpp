@@ -42,7 +42,7 @@ struct Point<3> {
   Point(const Configuration3& configuration, std::size_t i)
       : position(configuration.position[i]),
         species(static_cast<std::size_t>(configuration.species[i])) {
-    const Ellipsoid& shape = configuration.shape[i];
+    const ParticleShape<3>& shape = configuration.shape[i];
     if (shape.is_round()) return;
     director = figure_axis(shape, configuration.orientation[i]);
     rotor = 1;

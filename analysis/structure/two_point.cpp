@@ -18,7 +18,7 @@ double target_spacing(const Configuration3& c) {
   double spacing = std::cbrt(c.box.volume() / max_points);
   if (c.size() == 0) return spacing;
   double inradius = c.shape.front().inradius();
-  for (const Ellipsoid& shape : c.shape) inradius = std::min(inradius, shape.inradius());
+  for (const ParticleShape<3>& shape : c.shape) inradius = std::min(inradius, shape.inradius());
   return std::max(spacing, inradius / points_per_inradius);
 }
 
@@ -118,7 +118,7 @@ TwoPointStatistics TwoPointGrid::measure(const Configuration3& configuration) co
   found.probability = probabilities(configuration);
   for (std::vector<double>& path : found.lineal_path) path.assign(found.distance.size(), 0.0);
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Ellipsoid& shape = configuration.shape[i];
+    const ParticleShape<3>& shape = configuration.shape[i];
     const Mat3 inverse = shape_matrix(shape, configuration.orientation[i]).inverse();
     const double weight = shape.volume() / configuration.box.volume();
     for (int k = 0; k < 3; ++k)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 #include "core/geometry/body.h"
@@ -15,10 +16,14 @@ struct Ellipse {
   bool operator==(const Ellipse&) const = default;
   double circumradius() const { return a; }
   double inradius() const { return b; }
+  Vec2 half_lengths() const { return {a, b}; }
   double volume() const { return std::numbers::pi * a * b; }
+  double size() const { return std::sqrt(a * b); }
+  double natural_mass() const { return a * b; }
   double max_support_rate() const { return a - b; }
   double aspect_ratio() const { return a / b; }
   bool is_round() const { return a == b; }
+  bool fits_into(const Ellipse& other) const { return a <= other.a && b <= other.b; }
   /// Number of rotational degrees of freedom that smooth collisions change.
   int rotations() const { return is_round() ? 0 : 1; }
   /// a² − b², without cancellation.
@@ -28,10 +33,6 @@ struct Ellipse {
 };
 
 static_assert(Body<Ellipse>);
-
-inline Vec2 semi_axes_of(const Ellipse& ellipse) {
-  return {ellipse.a, ellipse.b};
-}
 
 /// The same shape, of another size.
 inline Ellipse scaled(const Ellipse& ellipse, double size) {

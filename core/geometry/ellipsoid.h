@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/geometry/body.h"
 
 namespace vitrel {
@@ -23,20 +24,25 @@ struct Ellipsoid {
   bool operator==(const Ellipsoid& other) const { return semi_axes == other.semi_axes; }
   double circumradius() const { return semi_axes.maxCoeff(); }
   double inradius() const { return semi_axes.minCoeff(); }
+  const Vec3& half_lengths() const { return semi_axes; }
   double volume() const { return 4 * std::numbers::pi / 3 * prod(semi_axes); }
+  double size() const { return root(prod(semi_axes), 3); }
+  double natural_mass() const { return prod(semi_axes); }
   double max_support_rate() const { return circumradius() - inradius(); }
 
   bool is_round() const { return semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2]; }
-  /// The axis of symmetry of a spheroid: 0, 1 or 2; none if all three semi-axes differ, or none does.
-  static constexpr int none = -1;
+  bool fits_into(const Ellipsoid& other) const {
+    return (semi_axes.array() <= other.semi_axes.array()).all();
+  }
+  /// Of a spheroid 0, 1 or 2; no_axis if all three semi-axes differ, or none does.
   int symmetry_axis() const {
-    if (is_round()) return none;
+    if (is_round()) return no_axis;
     for (int k = 0; k < 3; ++k)
       if (semi_axes[(k + 1) % 3] == semi_axes[(k + 2) % 3]) return k;
-    return none;
+    return no_axis;
   }
   /// Three different semi-axes.
-  bool is_scalene() const { return !is_round() && symmetry_axis() == none; }
+  bool is_scalene() const { return !is_round() && symmetry_axis() == no_axis; }
   /// Number of rotational degrees of freedom that smooth collisions change: 0, 2 or 3.
   int rotations() const { return is_round() ? 0 : is_scalene() ? 3 : 2; }
 
@@ -56,14 +62,14 @@ inline double spin_factor(const Ellipsoid& spheroid) {
   return 0.5 * (squares[axis] + across) / across;
 }
 
-inline const Vec3& semi_axes_of(const Ellipsoid& ellipsoid) {
-  return ellipsoid.semi_axes;
-}
-
 /// The same shape, of another size.
 inline Ellipsoid scaled(const Ellipsoid& ellipsoid, double size) {
   return {size * ellipsoid.semi_axes};
 }
+
+/// How far it reaches from its centre along the axes of space: √Σ_kk, Σ the shape matrix. It touches the plane x_k = β iff
+/// |β − r_k| = √Σ_kk.
+Vec3 half_extents(const Ellipsoid& ellipsoid, const Quaternion& orientation);
 
 /// Shape matrix Σ = R diag(a², b², c²) Rᵀ; the ellipsoid is the set of x with xᵀ Σ⁻¹ x ≤ 1.
 Mat3 shape_matrix(const Ellipsoid& ellipsoid, const Quaternion& orientation);

@@ -172,7 +172,7 @@ void TrajectoryReader::read_masses_and_species(Configuration<Dim>& fixed) const 
     fixed.mass = root_->dataset(group_ + "/mass").read<double>();
   else
     std::ranges::transform(fixed.shape, fixed.mass.begin(),
-                           [](const auto& shape) { return natural_mass(shape); });
+                           [](const auto& shape) { return shape.natural_mass(); });
   if (has_dataset(group_ + "/species")) {
     const h5::Dataset species = root_->dataset(group_ + "/species");
     fixed.species = species.read<std::int32_t>();

@@ -96,7 +96,7 @@ void create_fixed_arrays(h5::Group& particles, const Configuration<Dim>& configu
   std::vector<std::int64_t> id(n);
   std::iota(id.begin(), id.end(), 0);
   std::vector<double> semiaxes(3 * n);
-  for (std::size_t i = 0; i < n; ++i) put(&semiaxes[3 * i], semi_axes_of(configuration.shape[i]));
+  for (std::size_t i = 0; i < n; ++i) put(&semiaxes[3 * i], configuration.shape[i].half_lengths());
   particles.create_enumeration("species", configuration.species_names, configuration.species);
   particles.create_array<std::int64_t>("id", {n}, id);
   particles.create_array<double>("mass", {n}, configuration.mass);

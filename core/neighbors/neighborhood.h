@@ -161,7 +161,7 @@ class Neighborhoods {
   }
 
  private:
-  static constexpr bool has_capsule = std::same_as<Shape, Ellipsoid>;
+  static constexpr bool has_capsule = std::constructible_from<CapsuleOf, Shape>;
   static constexpr bool is_sphere = std::same_as<Shape, Sphere>;
   struct Empty {};
 

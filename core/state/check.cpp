@@ -26,7 +26,7 @@ std::string within_boxes() {
 }
 
 void validate_body(const Configuration2& configuration, std::size_t i, const std::string& who) {
-  const Ellipse& shape = configuration.shape[i];
+  const ParticleShape<2>& shape = configuration.shape[i];
   if (!std::isfinite(configuration.angle[i]))
     throw InvariantError(who + ": its angle must be finite");
   if (!(shape.b > 0 && shape.a >= shape.b &&
@@ -67,7 +67,7 @@ std::vector<Particle<Dim>> in_extended_precision(const Configuration<Dim>& confi
   std::vector<Particle<Dim>> particles;
   particles.reserve(configuration.size());
   for (std::size_t i = 0; i < configuration.size(); ++i)
-    particles.push_back(exact::particle(configuration, i));
+    particles.push_back(exact::particle(configuration.shape[i], configuration.pose(i)));
   return particles;
 }
 

@@ -27,11 +27,11 @@ double rotational_energy(const Configuration3& configuration, std::size_t i) {
   const Vec3 own = configuration.orientation[i].conjugate() * configuration.angular_velocity[i];
   const Vec3 squares = own.cwiseAbs2();
   const double energy = 0.5 * dot(configuration.inertia(i), squares);
-  const Ellipsoid& shape = configuration.shape[i];
+  const ParticleShape<3>& shape = configuration.shape[i];
   const int axis = shape.symmetry_axis();
-  return axis == Ellipsoid::none ? energy
-                                 : energy + 0.5 * configuration.inertia(i)[axis] *
-                                                (spin_factor(shape) - 1) * squares[axis];
+  return axis == no_axis ? energy
+                         : energy + 0.5 * configuration.inertia(i)[axis] *
+                                        (spin_factor(shape) - 1) * squares[axis];
 }
 
 }  // namespace
@@ -54,14 +54,14 @@ bool same_particles(const Configuration<Dim>& one, const Configuration<Dim>& two
 template <int Dim>
 double packing_fraction(const Configuration<Dim>& configuration) {
   double volume = 0;
-  for (const Solid<Dim>& shape : configuration.shape) volume += shape.volume();
+  for (const ParticleShape<Dim>& shape : configuration.shape) volume += shape.volume();
   return volume / configuration.box.volume();
 }
 
 template <int Dim>
 double largest_circumradius(const Configuration<Dim>& configuration) {
   double largest = 0;
-  for (const Solid<Dim>& shape : configuration.shape)
+  for (const ParticleShape<Dim>& shape : configuration.shape)
     largest = std::max(largest, shape.circumradius());
   return largest;
 }
@@ -90,13 +90,13 @@ Mechanics<Dim> mechanics(const Configuration<Dim>& configuration) {
 template <int Dim>
 std::size_t rotor_count(const Configuration<Dim>& configuration) {
   return std::ranges::count_if(configuration.shape,
-                               [](const Solid<Dim>& shape) { return !shape.is_round(); });
+                               [](const ParticleShape<Dim>& shape) { return !shape.is_round(); });
 }
 
 template <int Dim>
 std::size_t rotation_count(const Configuration<Dim>& configuration, Contacts contacts) {
   std::size_t count = 0;
-  for (const Solid<Dim>& shape : configuration.shape)
+  for (const ParticleShape<Dim>& shape : configuration.shape)
     count += static_cast<std::size_t>(rotations(shape, contacts));
   return count;
 }

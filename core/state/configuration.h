@@ -5,8 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/geometry/ellipse.h"
-#include "core/geometry/ellipsoid.h"
+#include "core/geometry/particle_shape.h"
 #include "core/geometry/periodic_box.h"
 #include "core/geometry/pose.h"
 
@@ -19,10 +18,6 @@ namespace vitrel {
 /// that unit of length, time is in √(m ℓ²/kT).
 template <int Dim>
 struct Configuration;
-
-/// The shape of any particle of a configuration.
-template <int Dim>
-using Solid = std::conditional_t<Dim == 2, Ellipse, Ellipsoid>;
 
 /// Particles i ≤ j, j seen at r_j + shift ∘ L. If i = j, shift and −shift are the same pair, and
 /// the one whose first non-zero component is positive is given.
@@ -60,7 +55,7 @@ struct Particles {
   std::vector<Vec<Dim>> velocity;
   std::vector<AngularVelocity<Dim>> angular_velocity;
 
-  std::vector<Solid<Dim>> shape;
+  std::vector<ParticleShape<Dim>> shape;
   std::vector<double> mass;
   std::vector<std::int32_t> species;  ///< index into species_names
   std::vector<std::string> species_names;
@@ -96,7 +91,7 @@ struct Configuration<3> : Particles<3> {
     position[i] = pose.position;
     orientation[i] = pose.orientation;
   }
-  /// About the own axes (ellipsoid.h).
+  /// About the own axes (particle_shape.h).
   Vec3 inertia(std::size_t i) const { return mass[i] * shape[i].inertia_per_mass(); }
 };
 
@@ -133,13 +128,10 @@ template <int Dim>
 std::size_t rotor_count(const Configuration<Dim>& configuration);
 /// Smooth contacts do not change all rotations, rough ones do.
 enum class Contacts { smooth, rough };
-/// Number of rotations that contacts change. Smooth: of an ellipse 1, a spheroid 2, a scalene ellipsoid 3, a round body 0.
-/// Rough: 1 in two dimensions, 3 in three.
-inline int rotations(const Ellipse& shape, Contacts contacts) {
-  return contacts == Contacts::rough ? 1 : shape.rotations();
-}
-inline int rotations(const Ellipsoid& shape, Contacts contacts) {
-  return contacts == Contacts::rough ? 3 : shape.rotations();
+/// Number of rotations of a particle that contacts change: if rough, 1 in two dimensions and 3 in three.
+template <class Shape>
+int rotations(const Shape& shape, Contacts contacts) {
+  return contacts == Contacts::rough ? 2 * Shape::dimension - 3 : shape.rotations();
 }
 /// The rotations of all particles together.
 template <int Dim>

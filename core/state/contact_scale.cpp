@@ -36,7 +36,7 @@ double shrink_to_contact(Configuration<Dim>& configuration) {
           fmt::format("two particles, like {} and {}, have one centre: no scaling separates them",
                       pair.i, pair.j));
     }
-    for (Solid<Dim>& shape : configuration.shape) shape = scaled(shape, scale);
+    for (ParticleShape<Dim>& shape : configuration.shape) shape = scaled(shape, scale);
     total *= scale;
     margin *= 2;
   }

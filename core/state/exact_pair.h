@@ -5,7 +5,7 @@
 #include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/ellipsoid_eta.h"
 #include "core/extended.h"
-#include "core/state/configuration.h"
+#include "core/geometry/particle_shape.h"
 
 /// @file
 /// Two particles in extended arithmetic, as the exact check (check.h) judges and measures them. Instantiated for long
@@ -23,15 +23,11 @@ struct Particle {
   bool is_round;
 };
 
-/// The body at its pose, unchanged; particle i of a configuration.
+/// The body at its pose, unchanged.
 template <class Real = Extended>
 Particle<2, Real> particle(const Ellipse& shape, const Pose2& pose);
 template <class Real = Extended>
 Particle<3, Real> particle(const Ellipsoid& shape, const Pose3& pose);
-template <int Dim>
-Particle<Dim> particle(const Configuration<Dim>& configuration, std::size_t i) {
-  return particle(configuration.shape[i], configuration.pose(i));
-}
 
 template <class Real>
 struct Finding {

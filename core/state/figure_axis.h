@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/elementary.h"
-#include "core/geometry/ellipsoid.h"
 #include "core/state/configuration.h"
 
 namespace vitrel {
@@ -9,9 +8,9 @@ namespace vitrel {
 /// The unit vector w along which a body is oriented, either of two opposite ones: the axis of symmetry of
 /// a spheroid, the short one of an oblate and the long one of a prolate; of a scalene body the longest
 /// axis, which is a choice. Not for round bodies.
-inline Vec3 figure_axis(const Ellipsoid& body, const Quaternion& orientation) {
+inline Vec3 figure_axis(const ParticleShape<3>& body, const Quaternion& orientation) {
   int axis = body.symmetry_axis();
-  if (axis == Ellipsoid::none) body.semi_axes.maxCoeff(&axis);
+  if (axis == no_axis) body.half_lengths().maxCoeff(&axis);
   return orientation * Vec3::Unit(axis);
 }
 

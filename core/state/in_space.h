@@ -4,7 +4,7 @@
 #include "core/state/configuration.h"
 
 /// @file
-/// Particles of either dimension as programs take them that know three: ellipses lie in the plane z = 0.
+/// Particles of either dimension as programs take them that know three: those of the plane lie in the plane z = 0.
 namespace vitrel {
 
 /// Coordinates or numbers of boxes, in the plane with 0 for z.
@@ -31,12 +31,13 @@ inline const Quaternion& orientation_in_space(const Configuration3& configuratio
   return configuration.orientation[i];
 }
 
-/// The axis out of the plane is b, as programs that draw ellipsoids do not take a flat one.
-inline Vec3 semi_axes_in_space(const Ellipse& ellipse) {
-  return {ellipse.a, ellipse.b, ellipse.b};
+/// Out of the plane a particle is as thick as across, as programs that draw bodies in space do not take flat ones.
+inline Vec3 half_lengths_in_space(const ParticleShape<2>& shape) {
+  const Vec2 half = shape.half_lengths();
+  return {half.x(), half.y(), half.y()};
 }
-inline const Vec3& semi_axes_in_space(const Ellipsoid& ellipsoid) {
-  return ellipsoid.semi_axes;
+inline const Vec3& half_lengths_in_space(const ParticleShape<3>& shape) {
+  return shape.half_lengths();
 }
 
 }  // namespace vitrel

@@ -141,8 +141,8 @@ void make_shape(const Species& species, auto&& value, Ellipsoid& shape) {
 
 /// The shapes of n particles of a species, by quantiles.
 template <int Dim>
-std::vector<Solid<Dim>> listed_shapes(const Species& species, std::size_t n) {
-  std::vector<Solid<Dim>> shapes(n);
+std::vector<ParticleShape<Dim>> listed_shapes(const Species& species, std::size_t n) {
+  std::vector<ParticleShape<Dim>> shapes(n);
   if (n == 0) return shapes;
   std::vector<std::vector<double>> lists;
   std::size_t varying = 0;
@@ -179,14 +179,6 @@ std::vector<std::size_t> shuffled(std::size_t count, Stream stream) {
 }
 
 }  // namespace
-
-double natural_mass(const Ellipse& shape) {
-  return shape.a * shape.b;
-}
-
-double natural_mass(const Ellipsoid& shape) {
-  return prod(shape.semi_axes);
-}
 
 double Distribution::draw(Stream& stream) const {
   constexpr int max_draws = 10'000;
@@ -255,13 +247,13 @@ Configuration<Dim> draw(const std::vector<Species>& species, std::size_t particl
   system.species.clear();
   system.species_names.clear();
   std::vector<std::int32_t> kinds;
-  std::vector<Solid<Dim>> shapes;
+  std::vector<ParticleShape<Dim>> shapes;
   const std::vector<std::size_t> counts = species_counts(species, particles);
   for (std::size_t k = 0; k < species.size(); ++k) {
     system.species_names.push_back(species[k].name);
     kinds.insert(kinds.end(), counts[k], static_cast<std::int32_t>(k));
     if (shapes_by == ShapeDraw::random) continue;
-    const std::vector<Solid<Dim>> listed = listed_shapes<Dim>(species[k], counts[k]);
+    const std::vector<ParticleShape<Dim>> listed = listed_shapes<Dim>(species[k], counts[k]);
     shapes.insert(shapes.end(), listed.begin(), listed.end());
   }
   const std::vector<std::size_t> order = shuffled(particles, Stream(seed, Purpose::shapes));
@@ -276,7 +268,7 @@ Configuration<Dim> draw(const std::vector<Species>& species, std::size_t particl
           kind, [&](const Distribution& d) { return d.draw(stream); }, system.shape[i]);
     }
     require_tested_aspect(kind, system.shape[i]);
-    system.mass[i] = kind.mass.value_or(natural_mass(system.shape[i]));
+    system.mass[i] = kind.mass.value_or(system.shape[i].natural_mass());
   }
   return system;
 }
@@ -284,7 +276,7 @@ Configuration<Dim> draw(const std::vector<Species>& species, std::size_t particl
 template <int Dim>
 double total_volume(const Configuration<Dim>& system) {
   double sum = 0;
-  for (const Solid<Dim>& shape : system.shape) sum += shape.volume();
+  for (const ParticleShape<Dim>& shape : system.shape) sum += shape.volume();
   return sum;
 }
 

@@ -60,11 +60,6 @@ struct Species {
   bool has_one_shape() const;
 };
 
-/// The mass of a particle whose species has none: a b or a b c, that at the density of a round particle of radius 1 and
-/// mass 1.
-double natural_mass(const Ellipse& shape);
-double natural_mass(const Ellipsoid& shape);
-
 /// The number of particles of each species: the shares rounded down, and the remaining particles given to the
 /// largest remainders (the earlier species on a tie). The counts add up to `particles`.
 std::vector<std::size_t> species_counts(const std::vector<Species>& species, std::size_t particles);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/elementary.h"
 #include "core/state/configuration.h"
 
 /// @file
@@ -12,14 +11,6 @@
 /// to these: medians over the particles, of an even number the lower one. A few large particles among many small ones
 /// leave both as they are.
 namespace vitrel {
-
-/// √(a b), or ∛(a b c).
-inline double size_of(const Ellipse& shape) {
-  return std::sqrt(shape.a * shape.b);
-}
-inline double size_of(const Ellipsoid& shape) {
-  return root(prod(shape.semi_axes), 3);
-}
 
 namespace detail {
 
@@ -38,14 +29,14 @@ double lower_median(std::size_t count, const auto& value) {
 /// The median size.
 template <int Dim>
 double typical_length(const Configuration<Dim>& c) {
-  return detail::lower_median(c.size(), [&](std::size_t i) { return size_of(c.shape[i]); });
+  return detail::lower_median(c.size(), [&](std::size_t i) { return c.shape[i].size(); });
 }
 
 /// τ, in which a particle moves by about its own size: of √(m a b/kT), or √(m/kT) ∛(a b c), at kT = 1.
 template <int Dim>
 double typical_time(const Configuration<Dim>& c) {
   return detail::lower_median(
-      c.size(), [&](std::size_t i) { return std::sqrt(c.mass[i]) * size_of(c.shape[i]); });
+      c.size(), [&](std::size_t i) { return std::sqrt(c.mass[i]) * c.shape[i].size(); });
 }
 
 }  // namespace vitrel

@@ -50,7 +50,7 @@ class Bodies {
   std::size_t size() const { return size_; }
 
   /// UserError if a number is impossible.
-  Flight<Solid<Dim>> at(std::size_t i) const {
+  Flight<ParticleShape<Dim>> at(std::size_t i) const {
     const auto k = static_cast<py::ssize_t>(i);
     const Vec<Dim> axes = row_of<Dim>(semi_axes_, i);
     if constexpr (is_plane) {
@@ -82,7 +82,8 @@ class Bodies {
   static void require(std::size_t i, bool holds, const char* what) {
     if (!holds) throw UserError(fmt::format("body {}: {}", i, what));
   }
-  static void require_finite(std::size_t i, const Vec<Dim>& axes, const Flight<Solid<Dim>>& body) {
+  static void require_finite(std::size_t i, const Vec<Dim>& axes,
+                             const Flight<ParticleShape<Dim>>& body) {
     require(i, axes.allFinite() && axes.minCoeff() > 0, "semi_axes must be positive");
     require(i, body.pose.position.allFinite(), "position must be finite");
     require(i, body.motion.velocity.allFinite(), "velocity must be finite");

@@ -76,7 +76,7 @@ Configuration<Dim> state_of(const Arrays& given) {
 
 template <int Dim>
 py::array_t<double> semi_axes(Configuration<Dim>& state, py::handle owner) {
-  static_assert(sizeof(Solid<Dim>) == Dim * sizeof(double));
+  static_assert(sizeof(ParticleShape<Dim>) == Dim * sizeof(double));
   return py::array_t<double>({state.size(), static_cast<std::size_t>(Dim)},
                              reinterpret_cast<double*>(state.shape.data()), owner);
 }

@@ -13,7 +13,7 @@ namespace vitrel {
 namespace {
 
 template <int Dim>
-Configuration<Dim> particles(const std::vector<Solid<Dim>>& shapes,
+Configuration<Dim> particles(const std::vector<ParticleShape<Dim>>& shapes,
                              const std::vector<int>& species = {}) {
   Configuration<Dim> c;
   c.resize(shapes.size());

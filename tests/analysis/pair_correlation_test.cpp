@@ -349,7 +349,7 @@ TEST(PairCorrelation, HasNoSpeciesWhereOneHasAllParticles) {
 
 /// Σ over pairs of species, weighted with their numbers, is g; the mean over the angles is g if none is round.
 template <int Dim>
-void expect_sums(Configuration<Dim> c, const Solid<Dim>& shape) {
+void expect_sums(Configuration<Dim> c, const ParticleShape<Dim>& shape) {
   c.shape.assign(c.size(), shape);
   const PairCorrelation pairs = pair_correlation(c, {20, 0.3});
   const PairCorrelationByAngle by_angle = pair_correlation_by_angle(c, {20, 0.3});

@@ -65,7 +65,7 @@ int middle_axis(const Ellipsoid& shape) {
   const Vec3& axes = shape.semi_axes;
   for (int k = 0; k < 3; ++k)
     if (axes[k] > axes.minCoeff() && axes[k] < axes.maxCoeff()) return k;
-  return Ellipsoid::none;
+  return no_axis;
 }
 
 // Almost about the middle axis, by down to 1e-12.

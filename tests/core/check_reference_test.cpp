@@ -35,9 +35,9 @@ ExactCheck<Dim> scan(const Configuration<Dim>& state, int boxes) {
   const Real nearness = largest_circumradius(state);
   Real smallest_gap = nearness;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const exact::Particle<Dim> one = exact::particle(state, i);
+    const exact::Particle<Dim> one = exact::particle(state.shape[i], state.pose(i));
     for (std::size_t j = i; j < state.size(); ++j) {
-      const exact::Particle<Dim> two = exact::particle(state, j);
+      const exact::Particle<Dim> two = exact::particle(state.shape[j], state.pose(j));
       for (const Shift<Dim>& shift : all_shifts<Dim>(boxes)) {
         if (i == j && !is_positive_shift<Dim>(shift)) continue;
         exact::Point<Dim> d = two.centre - one.centre;
@@ -88,7 +88,7 @@ Configuration<Dim> random_state(Stream& draw, std::size_t n, const Vec<Dim>& len
   Configuration<Dim> state = empty_box<Dim>(lengths);
   state.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    state.shape[i] = random_shape(draw, round_share, Solid<Dim>{});
+    state.shape[i] = random_shape(draw, round_share, ParticleShape<Dim>{});
     for (int k = 0; k < Dim; ++k) state.position[i][k] = draw.uniform(-0.5, 0.5) * lengths[k];
     turn_at_random(draw, state, i);
   }
@@ -145,7 +145,8 @@ TEST(ExactCheckAgainstAScan, PositionsFarOutsideOfTheBox) {
 
 template <int Dim>
 Real gap_of_two(const Configuration<Dim>& state) {
-  const exact::Particle<Dim> one = exact::particle(state, 0), two = exact::particle(state, 1);
+  const exact::Particle<Dim> one = exact::particle(state.shape[0], state.pose(0)),
+                             two = exact::particle(state.shape[1], state.pose(1));
   return exact::examine(one, two, two.centre - one.centre, infinity).gap;
 }
 

@@ -21,7 +21,7 @@ constexpr double near_contact = 3e-15;  // of the longest semi-axis
 
 template <int Dim>
 struct PosedBodies {
-  Solid<Dim> one, two;
+  ParticleShape<Dim> one, two;
   Pose<Dim> pose1, pose2;
 
   template <class Real>
@@ -133,7 +133,8 @@ void place_near_contact(PosedBodies<Dim>& pair, const Vec<Dim>& e, double gap) {
 template <int Dim>
 PosedBodies<Dim> random_bodies(Stream& draw) {
   const double size = log_uniform(draw, 0.1, 1);
-  PosedBodies<Dim> pair{random_body(draw, 1, Solid<Dim>()), random_body(draw, size, Solid<Dim>()),
+  PosedBodies<Dim> pair{random_body(draw, 1, ParticleShape<Dim>()),
+                        random_body(draw, size, ParticleShape<Dim>()),
                         random_pose(draw, Pose<Dim>()), random_pose(draw, Pose<Dim>())};
   if (draw.uniform() < 0.5) std::swap(pair.one, pair.two);
   return pair;

@@ -13,7 +13,7 @@ namespace {
 
 template <int Dim>
 struct BodyInContact {
-  Solid<Dim> shape;
+  ParticleShape<Dim> shape;
   double mass;
   Pose<Dim> pose;
   Motion<Dim> motion;

@@ -30,7 +30,7 @@ DynamicsOptions soft(const Force& force, EarlyRelease early_release = EarlyRelea
 }
 
 template <int Dim>
-Solid<Dim> round(double radius) {
+ParticleShape<Dim> round(double radius) {
   if constexpr (Dim == 2)
     return {radius, radius};
   else

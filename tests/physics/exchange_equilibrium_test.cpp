@@ -55,7 +55,7 @@ double size_correlation(const Configuration<Dim>& c) {
   constexpr double neighbor = 1.2;  // circumcircles of this size overlap
   const auto n = static_cast<double>(c.size());
   double mean = 0, square = 0, sum = 0;
-  for (const Solid<Dim>& shape : c.shape) mean += shape.circumradius() / n;
+  for (const ParticleShape<Dim>& shape : c.shape) mean += shape.circumradius() / n;
   const auto deviation = [&](std::size_t i) { return c.shape[i].circumradius() - mean; };
   for (std::size_t i = 0; i < c.size(); ++i) square += deviation(i) * deviation(i);
   for_each_pair(c, neighbor, [&](std::size_t i, std::size_t j, const Vec<Dim>& distance) {

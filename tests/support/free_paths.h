@@ -27,7 +27,7 @@ inline void PrintTo(const FreePathClass& at, std::ostream* out) {
 
 template <int Dim>
 struct PlacedBody {
-  Solid<Dim> shape;
+  ParticleShape<Dim> shape;
   Pose<Dim> pose;  // from the centre of the one that moves
 };
 
@@ -77,8 +77,8 @@ void check_free_path(const FreePathScene<Dim>& scene, const FreePath& end, int a
   for (const PlacedBody<Dim>& other : scene.others) {
     const Motion<Dim> motion{e}, rest{Vec<Dim>::Zero()};
     const auto met = first_contact(
-        Flight<Solid<Dim>>{scene.moving.shape, scene.moving.pose, motion},
-        Flight<Solid<Dim>>{other.shape, other.pose, rest}, end.length, 0.5 * free_path_gap);
+        Flight<ParticleShape<Dim>>{scene.moving.shape, scene.moving.pose, motion},
+        Flight<ParticleShape<Dim>>{other.shape, other.pose, rest}, end.length, 0.5 * free_path_gap);
     ASSERT_EQ(met.outcome, Outcome::none) << "after " << met.time << " of " << end.length;
   }
   if (end.partner == FreePath::none) {

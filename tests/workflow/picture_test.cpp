@@ -30,7 +30,7 @@ using testing_program::succeed;
 using testing_program::summary_of;
 
 template <int Dim>
-Configuration<Dim> particles(const Vec<Dim>& box, const std::vector<Solid<Dim>>& shapes) {
+Configuration<Dim> particles(const Vec<Dim>& box, const std::vector<ParticleShape<Dim>>& shapes) {
   Configuration<Dim> configuration;
   configuration.box = PeriodicBox<Dim>(box);
   configuration.resize(shapes.size());
@@ -274,7 +274,8 @@ TEST(Picture, SvgHasAnEllipsePerImage) {
 /// Frames of three particles that move to the right, each time by 0.1, 0.2 and 0.3.
 template <int Dim>
 void write_run(const std::filesystem::path& path, int frames) {
-  Configuration<Dim> state = particles<Dim>(Vec<Dim>::Constant(20), std::vector<Solid<Dim>>(3));
+  Configuration<Dim> state =
+      particles<Dim>(Vec<Dim>::Constant(20), std::vector<ParticleShape<Dim>>(3));
   for (std::size_t i = 0; i < 3; ++i) state.position[i].y() = 3.0 * static_cast<double>(i);
   auto writer = TrajectoryWriter::create(path, state, current_provenance("", "", 1));
   for (int k = 0; k < frames; ++k) {

@@ -22,7 +22,8 @@ template <int Dim>
 Vec3 semi_axes_of(Species species) {
   species.fraction = 1;
   constexpr double any = 0.1;
-  return semi_axes_in_space(draw_particles<Dim>({species}, 1, any, Vec<Dim>::Ones(), 1).shape[0]);
+  return half_lengths_in_space(
+      draw_particles<Dim>({species}, 1, any, Vec<Dim>::Ones(), 1).shape[0]);
 }
 
 const StateStage& start_of(const Parameters& parameters) {

@@ -40,20 +40,19 @@ std::optional<Misfit> ratio_misfit(const Species& species, const std::vector<dou
 
 std::optional<Misfit> misfit(const Species& species, const auto& shape, double mass,
                              Agreement agreement) {
-  const auto lengths = semi_axes_of(shape);
+  const auto lengths = shape.half_lengths();
   const std::vector<double> axes(lengths.begin(), lengths.end());
   if (species.semi_axes) {
     if (!allow(*species.semi_axes, axes, agreement))
       return Misfit{"semi_axes", text(*species.semi_axes), to_toml(std::span<const double>(axes))};
   } else {
     if (auto found = ratio_misfit(species, axes, agreement)) return found;
-    auto found =
-        species.first_semi_axis
-            ? misfit("first_semi_axis", *species.first_semi_axis, axes[0], agreement)
-            : misfit("size", species.size.value_or(constant(1)), size_of(shape), agreement);
+    auto found = species.first_semi_axis
+                     ? misfit("first_semi_axis", *species.first_semi_axis, axes[0], agreement)
+                     : misfit("size", species.size.value_or(constant(1)), shape.size(), agreement);
     if (found) return found;
   }
-  return misfit("mass", constant(species.mass.value_or(natural_mass(shape))), mass, agreement);
+  return misfit("mass", constant(species.mass.value_or(shape.natural_mass())), mass, agreement);
 }
 
 // ---- all particles ----------------------------------------------------------------------------------
@@ -148,7 +147,7 @@ Distribution range_of(const Configuration<Dim>& state, const std::vector<std::si
                       std::size_t axis) {
   std::vector<double> lengths;
   for (const std::size_t i : members)
-    lengths.push_back(semi_axes_of(state.shape[i])[static_cast<int>(axis)]);
+    lengths.push_back(state.shape[i].half_lengths()[static_cast<int>(axis)]);
   const auto [low, high] = std::ranges::minmax(lengths);
   if (agree(lengths.front(), low, Agreement::rounding) &&
       agree(lengths.front(), high, Agreement::rounding))
@@ -177,7 +176,7 @@ Species as_found(const Configuration<Dim>& state, std::size_t species) {
   const auto all = [&](const auto& holds) { return std::ranges::all_of(members, holds); };
   const double mass = state.mass[members.front()];
   if (!all([&](std::size_t i) {
-        return allows(constant(natural_mass(state.shape[i])), state.mass[i]);
+        return allows(constant(state.shape[i].natural_mass()), state.mass[i]);
       }) &&
       all([&](std::size_t i) { return allows(constant(mass), state.mass[i]); }))
     found.mass = mass;

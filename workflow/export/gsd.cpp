@@ -136,10 +136,10 @@ Vec3 modelled_inertia(const Configuration2& configuration, std::size_t i) {
 }
 
 Vec3 modelled_inertia(const Configuration3& configuration, std::size_t i) {
-  const Ellipsoid& shape = configuration.shape[i];
+  const ParticleShape<3>& shape = configuration.shape[i];
   if (shape.is_round()) return Vec3::Zero();
   Vec3 inertia = configuration.inertia(i);
-  if (shape.symmetry_axis() != Ellipsoid::none) inertia[shape.symmetry_axis()] = 0;
+  if (shape.symmetry_axis() != no_axis) inertia[shape.symmetry_axis()] = 0;
   return inertia;
 }
 
@@ -178,7 +178,7 @@ std::vector<CommonShape> shapes_of_species(const Configuration<Dim>& configurati
   std::vector<bool> differ(shapes.size());
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const auto k = static_cast<std::size_t>(configuration.species[i]);
-    const Vec3 axes = semi_axes_in_space(configuration.shape[i]);
+    const Vec3 axes = half_lengths_in_space(configuration.shape[i]);
     differ[k] = differ[k] || (shapes[k] && *shapes[k] != axes);
     shapes[k] = axes;
   }
@@ -253,7 +253,7 @@ class GsdSink final : public FrameSink<Dim> {
     std::vector<float> diameters;
     std::vector<double> semi_axes;
     for (std::size_t i = 0; i < configuration.size(); ++i) {
-      const Vec3 axes = semi_axes_in_space(configuration.shape[i]);
+      const Vec3 axes = half_lengths_in_space(configuration.shape[i]);
       diameters.push_back(static_cast<float>(2 * axes[0]));
       semi_axes.insert(semi_axes.end(), axes.begin(), axes.end());
       if (common[static_cast<std::size_t>(configuration.species[i])]) continue;

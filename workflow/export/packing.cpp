@@ -6,7 +6,7 @@ namespace vitrel {
 namespace {
 
 Configuration3 shrunk(Configuration3 state, double shrink) {
-  for (Ellipsoid& shape : state.shape) shape = scaled(shape, shrink);
+  for (ParticleShape<3>& shape : state.shape) shape = scaled(shape, shrink);
   return state;
 }
 

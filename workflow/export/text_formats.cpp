@@ -47,14 +47,14 @@ std::string csv_header(const StoredMotion& motion) {
 // What a particle has in the columns that differ between plane and space.
 
 Eigen::Array3d orientation_and_shape(const Configuration2& configuration, std::size_t i) {
-  const Ellipse& shape = configuration.shape[i];
-  return {configuration.angle[i], shape.a, shape.b};
+  const Vec2 half = configuration.shape[i].half_lengths();
+  return {configuration.angle[i], half[0], half[1]};
 }
 
 Eigen::Array<double, 7, 1> orientation_and_shape(const Configuration3& configuration,
                                                  std::size_t i) {
   const Quaternion& q = configuration.orientation[i];
-  const Vec3& axes = configuration.shape[i].semi_axes;
+  const Vec3& axes = configuration.shape[i].half_lengths();
   return {{q.w(), q.x(), q.y(), q.z(), axes[0], axes[1], axes[2]}};
 }
 
@@ -122,7 +122,7 @@ void append_xyz(fmt::memory_buffer& text, const StoredFrame<Dim>& frame, StoredM
     append(in_space(configuration.image[i]));
     if constexpr (Dim == 2) fmt::format_to(out, " {}", configuration.angle[i]);
     append(orientation_in_space(configuration, i).coeffs());  // x, y, z, w
-    append(semi_axes_in_space(configuration.shape[i]));
+    append(half_lengths_in_space(configuration.shape[i]));
     fmt::format_to(out, " {}", configuration.mass[i]);
     if (motion.velocities) append(in_space(configuration.velocity[i]));
     if (motion.angular_velocities)
@@ -188,7 +188,7 @@ void write_packing_csv(const std::filesystem::path& path, const Packing& packing
   for (const BodyInBox& body : packing.bodies) {
     const std::size_t i = body.particle;
     const Vec3 centre = packing.centre(body);
-    const Vec3& axes = configuration.shape[i].semi_axes;
+    const Vec3& axes = configuration.shape[i].half_lengths();
     const Quaternion& q = configuration.orientation[i];
     fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", i,
                    csv_field(configuration.species_names[configuration.species[i]]), body.shift.x(),

@@ -54,7 +54,7 @@ bool is_scalene(const Ellipsoid& body) {
 }
 
 template <int Dim>
-Pose<Dim> pose_at(const Pair<Dim>& pair, const Flight<Solid<Dim>>& flight, double time) {
+Pose<Dim> pose_at(const Pair<Dim>& pair, const Flight<ParticleShape<Dim>>& flight, double time) {
   if constexpr (Dim == 3)
     if (pair.tumbles()) return vitrel::pose_at(tumbling(flight), time);
   return vitrel::pose_at(flight, time);
@@ -88,7 +88,7 @@ void for_each_image(const Pair<Dim>& pair, const Vec<Dim>& d, double reach, Visi
 template <int Dim>
 double reach_of_smallest_gap(const Pair<Dim>& pair, const Vec<Dim>& d) {
   if (!pair.box) return 0;
-  const Solid<Dim>&one = pair.one.body, &two = pair.two.body;
+  const ParticleShape<Dim>&one = pair.one.body, &two = pair.two.body;
   const double nearest = (d + pair.box->translation(pair.box->nearest_shift(d))).norm();
   const double reach =
       nearest + one.circumradius() - one.inradius() + two.circumradius() - two.inradius();
@@ -108,8 +108,9 @@ exact::Point<Dim> exact_separation(const Pair<Dim>& pair, const exact::Particle<
 
 /// The normal and the closest points; d is the separation of the centres.
 template <int Dim>
-void add_closest_points(const Solid<Dim>& one, const Pose<Dim>& pose1, const Solid<Dim>& two,
-                        const Pose<Dim>& pose2, const Vec<Dim>& d, PairGap<Dim>& gap) {
+void add_closest_points(const ParticleShape<Dim>& one, const Pose<Dim>& pose1,
+                        const ParticleShape<Dim>& two, const Pose<Dim>& pose2, const Vec<Dim>& d,
+                        PairGap<Dim>& gap) {
   const auto orientation1 = orientation_of(pose1), orientation2 = orientation_of(pose2);
   gap.normal = support_gap(one, orientation1, two, orientation2, d).normal;
   gap.point1 = pose1.position + surface_point(one, orientation1, gap.normal);
@@ -148,7 +149,7 @@ double norm(const Vec3& angular_velocity) {
 template <int Dim>
 void require_few_rotations(const Pair<Dim>& pair) {
   constexpr double max_radians = 1e6;  // angles then keep ten digits
-  for (const Flight<Solid<Dim>>* flight : {&pair.one, &pair.two}) {
+  for (const Flight<ParticleShape<Dim>>* flight : {&pair.one, &pair.two}) {
     const double radians = norm(flight->motion.angular_velocity) * pair.horizon;
     if (!(radians <= max_radians))
       throw UserError(
@@ -185,8 +186,8 @@ bool Pair<Dim>::tumbles() const {
 
 template <int Dim>
 Pair<Dim> pair_of(const PairParameters& p) {
-  Pair<Dim> pair{flight_of(p.body[0], Solid<Dim>()), flight_of(p.body[1], Solid<Dim>()),
-                 std::nullopt, p.horizon, p.rotation};
+  Pair<Dim> pair{flight_of(p.body[0], ParticleShape<Dim>()),
+                 flight_of(p.body[1], ParticleShape<Dim>()), std::nullopt, p.horizon, p.rotation};
   if (p.box) pair.box.emplace(vector_of<Dim>(*p.box));
   return pair;
 }
@@ -210,7 +211,7 @@ bool overlaps(const Pair<Dim>& pair) {
 
 template <int Dim>
 PairGap<Dim> gap_at(const Pair<Dim>& pair, double time) {
-  const Solid<Dim>&body1 = pair.one.body, &body2 = pair.two.body;
+  const ParticleShape<Dim>&body1 = pair.one.body, &body2 = pair.two.body;
   const Pose<Dim> pose1 = pose_at(pair, pair.one, time), pose2 = pose_at(pair, pair.two, time);
   const auto one = exact::particle(body1, pose1), two = exact::particle(body2, pose2);
   const Vec<Dim> d = pose2.position - pose1.position;

@@ -17,7 +17,7 @@ namespace vitrel {
 
 template <int Dim>
 struct Pair {
-  Flight<Solid<Dim>> one, two;
+  Flight<ParticleShape<Dim>> one, two;
   std::optional<PeriodicBox<Dim>> box;
   double horizon = 0;
   /// Scalene ellipsoids rotate by Euler's equations (core/geometry/tumbling_ellipsoid.h); all others keep their angular

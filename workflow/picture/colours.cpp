@@ -43,9 +43,9 @@ Colour orientation_of_particle(const Configuration3& configuration, std::size_t 
 
 template <int Dim>
 std::vector<double> sizes(const Configuration<Dim>& configuration) {
-  const double unit = Solid<Dim>().volume();
+  const double unit = ParticleShape<Dim>().volume();
   std::vector<double> result;
-  for (const Solid<Dim>& shape : configuration.shape)
+  for (const ParticleShape<Dim>& shape : configuration.shape)
     result.push_back(std::pow(shape.volume() / unit, 1.0 / Dim));
   return result;
 }

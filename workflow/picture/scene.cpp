@@ -13,9 +13,9 @@ namespace {
 constexpr double space_margin = 0.02;  // beyond the box, over half its size
 
 /// `turn`: from the axes of the body to those of the view.
-Scene::Body seen_body(const Vec3& centre, const Vec3& semi_axes, const Mat3& turn,
+Scene::Body seen_body(const Vec3& centre, const Vec3& half_lengths, const Mat3& turn,
                       const Colour& colour) {
-  const Vec3 squares = semi_axes.cwiseAbs2();
+  const Vec3 squares = half_lengths.cwiseAbs2();
   return {centre, turn * squares.asDiagonal() * turn.transpose(),
           turn * squares.cwiseInverse().asDiagonal() * turn.transpose(), colour};
 }
@@ -23,7 +23,7 @@ Scene::Body seen_body(const Vec3& centre, const Vec3& semi_axes, const Mat3& tur
 template <int Dim>
 Scene::Body seen_particle(const Configuration<Dim>& configuration, std::size_t i,
                           const Vec<Dim>& centre, const Mat3& turn, const Colour& colour) {
-  return seen_body(turn * in_space(centre), semi_axes_in_space(configuration.shape[i]),
+  return seen_body(turn * in_space(centre), half_lengths_in_space(configuration.shape[i]),
                    turn * rotation_matrix(orientation_in_space(configuration, i)), colour);
 }
 

@@ -133,7 +133,7 @@ template <int Dim>
 MeanAndSpread sizes_of(const Configuration<Dim>& c, std::int32_t species) {
   std::vector<double> sizes;
   for (std::size_t i = 0; i < c.size(); ++i)
-    if (c.species[i] == species) sizes.push_back(size_of(c.shape[i]));
+    if (c.species[i] == species) sizes.push_back(c.shape[i].size());
   const auto n = static_cast<double>(sizes.size());
   const double mean = std::accumulate(sizes.begin(), sizes.end(), 0.0) / n;
   double squares = 0;

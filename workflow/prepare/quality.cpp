@@ -128,7 +128,7 @@ constexpr double bin_width = 0.25;
 
 double unit_length(const Configuration2& configuration) {
   double areas = 0;
-  for (const Ellipse& shape : configuration.shape) areas += shape.a * shape.b;
+  for (const ParticleShape<2>& shape : configuration.shape) areas += shape.natural_mass();
   return std::sqrt(areas / static_cast<double>(configuration.size()));
 }
 

@@ -209,7 +209,7 @@ void add_shapes(Json& data, const std::vector<Shape>& bodies) {
   std::map<std::vector<double>, std::size_t> known;
   Json shapes = Json::array(), shape = Json::array();
   for (const Shape& body : bodies) {
-    const auto axes = semi_axes_of(body);
+    const auto axes = body.half_lengths();
     const auto [place, added] =
         known.emplace(std::vector<double>(axes.begin(), axes.end()), known.size());
     if (added) shapes.push_back(rounded(axes));

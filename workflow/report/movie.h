@@ -33,7 +33,7 @@ struct Movie {
   Vec<Dim> window = Vec<Dim>::Ones();  ///< sides of the part of the box that is shown, in fractions
   std::vector<double> time;            ///< of every shown frame
   std::vector<Vec<Dim>> box;           ///< side lengths, for every shown frame
-  std::vector<Solid<Dim>> shape;       ///< of every shown particle
+  std::vector<ParticleShape<Dim>> shape;  ///< of every shown particle
   std::vector<std::int32_t> species;
   std::vector<std::string> species_names;
   std::vector<std::uint16_t> poses;  ///< of every particle in frame 0, in frame 1 …

@@ -68,9 +68,9 @@ double unit_circle_distance(const Pair<2>& pair, double time, const Shift<2>& im
   if (pair.box) d += pair.box->translation(image);
   const Mat2 to_circle = Vec2(1 / pair.one.body.a, 1 / pair.one.body.b).asDiagonal() *
                          Eigen::Rotation2Dd(-pose1.angle).toRotationMatrix();
-  const Mat2 semi_axes = to_circle * Eigen::Rotation2Dd(pose2.angle).toRotationMatrix() *
-                         Vec2(pair.two.body.a, pair.two.body.b).asDiagonal();
-  const Eigen::JacobiSVD<Mat2> mapped(semi_axes, Eigen::ComputeFullU);
+  const Mat2 mapped_axes = to_circle * Eigen::Rotation2Dd(pose2.angle).toRotationMatrix() *
+                           Vec2(pair.two.body.a, pair.two.body.b).asDiagonal();
+  const Eigen::JacobiSVD<Mat2> mapped(mapped_axes, Eigen::ComputeFullU);
   const Vec2 lengths = mapped.singularValues(), axis = mapped.matrixU().col(0);
   Pair<2> circle_and_ellipse = {{{1, 1}, {}, {}}, {{lengths[0], lengths[1]}, {}, {}}, std::nullopt};
   circle_and_ellipse.two.pose = {to_circle * d, std::atan2(axis.y(), axis.x())};

@@ -159,17 +159,17 @@ std::string words(const std::string& key) {
   return last;
 }
 
-std::string shapes_text(const std::vector<Ellipse>& shapes) {
+std::string shapes_text(const std::vector<ParticleShape<2>>& shapes) {
   const double ratio = shapes.front().aspect_ratio();
-  for (const Ellipse& shape : shapes)
+  for (const ParticleShape<2>& shape : shapes)
     if (std::abs(shape.aspect_ratio() - ratio) > 1e-9 * ratio) return "ellipses of several shapes";
   return ratio == 1 ? "disks" : fmt::format("ellipses, κ = {:.4g}", ratio);
 }
 
-std::string shapes_text(const std::vector<Ellipsoid>& shapes) {
-  const Vec3 ratios = shapes.front().semi_axes / shapes.front().inradius();
-  for (const Ellipsoid& shape : shapes)
-    if (!ratios.isApprox(shape.semi_axes / shape.inradius(), 1e-9))
+std::string shapes_text(const std::vector<ParticleShape<3>>& shapes) {
+  const Vec3 ratios = shapes.front().half_lengths() / shapes.front().inradius();
+  for (const ParticleShape<3>& shape : shapes)
+    if (!ratios.isApprox(shape.half_lengths() / shape.inradius(), 1e-9))
       return "ellipsoids of several shapes";
   return shapes.front().is_round()
              ? "spheres"

@@ -121,7 +121,7 @@ double mass_of(const ForeignFrame& frame, const KnownSpecies* known, std::size_t
                const auto& shape) {
   const double mass = !frame.mass.empty()    ? frame.mass[i]
                       : known && known->mass ? *known->mass
-                                             : natural_mass(shape);
+                                             : shape.natural_mass();
   if (!bounds::mass.contains(mass))
     throw UserError(fmt::format("the mass of particle {} is {}, but {}", i, mass,
                                 requirement(bounds::mass, mass)));
