@@ -4,11 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
+
+#include "bench/studies/runner.h"
 
 namespace vitrel::bench {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Two methods on two classes, of which the second is half as dear and sometimes wrong.
 const Json rows = Json::parse(R"([
@@ -41,8 +46,8 @@ TEST(StudyTables, ShowWhereWhichMethodFailsAndWhatItCosts) {
   EXPECT_EQ(texts(tables[0].rows[0]), (std::vector<std::string>{"x, κ = 2", "·", "7 %"}));
   EXPECT_EQ(texts(tables[0].rows[1]), (std::vector<std::string>{"y, κ = 6", "·", "–"}));
   EXPECT_THAT(tables[0].rows[0][2].note, HasSubstr("7 late, 0 no answer"));
-  EXPECT_EQ(texts(tables[1].rows[0]),
-            (std::vector<std::string>{"x, κ = 2", "200 ns", "100 ns (0.5)"}));
+  EXPECT_EQ(texts(tables[1].rows[0]), (std::vector<std::string>{"x, κ = 2", "200 ns", "0.5"}));
+  EXPECT_EQ(tables[1].rows[0][2].note, "100 ns");
   EXPECT_EQ(tables[2].rows.size(), 4u);
   for (const auto& row : tables[2].rows) EXPECT_EQ(row.size(), tables[2].head.size());
   EXPECT_THAT(markdown(tables[0]), HasSubstr("| x, κ = 2 | · | 7 % |\n"));
@@ -70,8 +75,35 @@ TEST(StudyTables, CompareAtEqualValuesOfWhatIsVariedWithoutAnError) {
       R"([{"method": "a", "particles": 10, "ns": 1}, {"method": "b", "particles": 10, "ns": 3},
                                      {"method": "a", "particles": 20, "ns": 2}, {"method": "b", "particles": 20, "ns": 12}])");
   EXPECT_EQ(answer_of(grows, sizes), "b (3 to 6 times the cost).");
-  EXPECT_EQ(texts(tables_of(grows, sizes)[0].rows[1]).back(), "12.0 ns (6)");
+  EXPECT_EQ(texts(tables_of(grows, sizes)[0].rows[1]).back(), "6");
   EXPECT_EQ(charts_of(grows, sizes)[0]["curves"][0]["x"], Json::array({10, 20}));
+}
+
+/// A page of one part with so many classes of two rows.
+std::string page_with(const Part& of, int classes) {
+  Json all = Json::array();
+  for (int k = 0; k < classes; ++k)
+    for (const char* const method : {"a", "b"})
+      all.push_back(
+          {{"class", std::to_string(k)}, {"method", method}, {"ns", 1 + k}, {"off", 1e-9}});
+  const Json from = {{"date", "2026-01-01T00:00"}, {"commit", "c"},
+                     {"processor", "p"},           {"compiler", "g"},
+                     {"wall time", "1 s"},         {"command", "c"}};
+  return study_markdown(
+      {.name = "s", .aliases = {}, .question = "q", .parts = {of}},
+      {{"parts", {{{"name", "part"}, {"about", ""}, {"answer", ""}, {"rows", all}}}},
+       {"provenance", from}});
+}
+
+TEST(StudyPage, HasAllNumbersIfTheyAreFewElseChartsOrHowCostsCompare) {
+  Part of = part();
+  of.verdicts = {};
+  EXPECT_THAT(page_with(of, 12), HasSubstr("All numbers:"));
+  EXPECT_THAT(page_with(of, 13), AllOf(HasSubstr("part-13.svg"), Not(HasSubstr("| ---"))));
+  of.error = {};  // no charts
+  EXPECT_THAT(page_with(of, 12), Not(HasSubstr("of the first method")));
+  EXPECT_THAT(page_with(of, 13),
+              AllOf(HasSubstr("of the first method"), Not(HasSubstr("All numbers:"))));
 }
 
 TEST(NumberText, IsShort) {
