@@ -25,7 +25,7 @@ Shape shape_from(const ParticleShape<Shape::dimension>& of_particle) {
   else
     return {of_particle.circumradius()};
 }
-/// The same back.
+/// The shape of the particle that the simulation has in its form.
 template <class Shape>
 ParticleShape<Shape::dimension> particle_shape(const Shape& shape) {
   if constexpr (std::is_same_v<Shape, ParticleShape<Shape::dimension>>)

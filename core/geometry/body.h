@@ -23,7 +23,7 @@ concept Body = requires(const B body) {
   { body.max_support_rate() } -> std::convertible_to<double>;
 };
 
-/// No axis of a body, where one is asked for.
+/// What a function that returns the number of an axis returns if there is none.
 inline constexpr int no_axis = -1;
 
 /// A body in free flight: its pose at time 0 and its constant velocities.

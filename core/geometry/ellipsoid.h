@@ -34,7 +34,7 @@ struct Ellipsoid {
   bool fits_into(const Ellipsoid& other) const {
     return (semi_axes.array() <= other.semi_axes.array()).all();
   }
-  /// Of a spheroid 0, 1 or 2; no_axis if all three semi-axes differ, or none does.
+  /// 0, 1 or 2 for a spheroid; no_axis if all three semi-axes differ, or none does.
   int symmetry_axis() const {
     if (is_round()) return no_axis;
     for (int k = 0; k < 3; ++k)
@@ -67,8 +67,8 @@ inline Ellipsoid scaled(const Ellipsoid& ellipsoid, double size) {
   return {size * ellipsoid.semi_axes};
 }
 
-/// How far it reaches from its centre along the axes of space: √Σ_kk, Σ the shape matrix. It touches the plane x_k = β iff
-/// |β − r_k| = √Σ_kk.
+/// √Σ_kk, Σ the shape matrix: how far the ellipsoid reaches from its centre along the axes of space. It touches the plane
+/// x_k = β iff |β − r_k| = √Σ_kk.
 Vec3 half_extents(const Ellipsoid& ellipsoid, const Quaternion& orientation);
 
 /// Shape matrix Σ = R diag(a², b², c²) Rᵀ; the ellipsoid is the set of x with xᵀ Σ⁻¹ x ≤ 1.

@@ -19,9 +19,11 @@
 ///     scaled(shape, factor)      the same shape of another size
 namespace vitrel {
 
+/// The shape of any particle of a configuration.
 template <int Dim>
 using ParticleShape = std::conditional_t<Dim == 2, Ellipse, Ellipsoid>;
 
+/// The disk or sphere of this radius.
 template <int Dim>
 ParticleShape<Dim> round_shape(double radius) {
   if constexpr (Dim == 2)

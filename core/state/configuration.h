@@ -128,10 +128,10 @@ template <int Dim>
 std::size_t rotor_count(const Configuration<Dim>& configuration);
 /// Smooth contacts do not change all rotations, rough ones do.
 enum class Contacts { smooth, rough };
-/// Number of rotations of a particle that contacts change: if rough, 1 in two dimensions and 3 in three.
+/// The number of rotations of a particle that contacts change. Rough contacts change all of them.
 template <class Shape>
 int rotations(const Shape& shape, Contacts contacts) {
-  return contacts == Contacts::rough ? 2 * Shape::dimension - 3 : shape.rotations();
+  return contacts == Contacts::smooth ? shape.rotations() : Shape::dimension == 2 ? 1 : 3;
 }
 /// The rotations of all particles together.
 template <int Dim>

@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Boxes,
                                          std::pair<std::size_t, Vec2>{500, {20, 20}}));
 
 TEST(Voronoi, AgreesWithTheSlowConstruction) {
-  for (const Vec2& lengths : {Vec2(1, 1), Vec2(1, 4), Vec2(2, 1.3)})
+  for (const Vec2& lengths : {Vec2(1, 1), Vec2(1, 4), Vec2(2, 1.3), Vec2(12, 1)})
     for (const std::size_t n : {2u, 3u, 8u}) {
       const Configuration2 c = gas(n, lengths, 5);
       const std::vector<VoronoiCell> cells = cells_of(c);

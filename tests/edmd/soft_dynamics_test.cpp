@@ -29,14 +29,6 @@ DynamicsOptions soft(const Force& force, EarlyRelease early_release = EarlyRelea
   return options;
 }
 
-template <int Dim>
-ParticleShape<Dim> round(double radius) {
-  if constexpr (Dim == 2)
-    return {radius, radius};
-  else
-    return {Vec3::Constant(radius)};
-}
-
 /// Particles of these radii and of density 1140 in a wide box.
 template <int Dim>
 Configuration<Dim> few(const std::vector<double>& radii, const std::vector<Vec<Dim>>& positions,
@@ -47,7 +39,7 @@ Configuration<Dim> few(const std::vector<double>& radii, const std::vector<Vec<D
   c.position = positions;
   c.velocity = velocities;
   for (std::size_t i = 0; i < c.size(); ++i) {
-    c.shape[i] = round<Dim>(radii[i]);
+    c.shape[i] = round_shape<Dim>(radii[i]);
     c.mass[i] = 1140 * 4 * std::numbers::pi / 3 * std::pow(radii[i], 3);
   }
   return c;
@@ -302,7 +294,7 @@ Configuration3 gas(int cells, double packing_fraction) {
       cubic_lattice(cells, simple_cubic, packing_fraction, Ellipsoid{Vec3::Constant(0.1)});
   Stream draw(8, Purpose::tests);
   for (std::size_t i = 0; i < c.size(); ++i) {
-    if (i % 3 == 0) c.shape[i] = round<3>(0.07);
+    if (i % 3 == 0) c.shape[i] = round_shape<3>(0.07);
     c.mass[i] = 1140 * 4 * std::numbers::pi / 3 * std::pow(c.shape[i].circumradius(), 3);
     c.velocity[i] = 1.2 * Vec3{draw.normal(), draw.normal(), draw.normal()};
   }
@@ -395,8 +387,9 @@ TEST(SoftGas, HardLimitIsTheHardEngine) {
 
 /// Disks of unit mass on a square lattice, every second one of radius 1.
 Configuration2 disks(int side, double packing_fraction, std::uint64_t seed, double radius = 1) {
-  Configuration2 c = square_lattice(
-      side, packing_fraction, 0, [&](std::size_t i) { return round<2>(i % 2 == 0 ? 1 : radius); });
+  Configuration2 c = square_lattice(side, packing_fraction, 0, [&](std::size_t i) {
+    return round_shape<2>(i % 2 == 0 ? 1 : radius);
+  });
   Stream draw(seed, Purpose::tests);
   for (Vec2& velocity : c.velocity) velocity = {draw.normal(), draw.normal()};
   c.mass.assign(c.size(), 1);

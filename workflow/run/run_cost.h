@@ -32,8 +32,8 @@ RunCost run_cost(const Parameters& parameters, const Configuration<Dim>& some);
 /// How long a step is: √(kT/m) τ_B, the distance between two draws of the velocities, over the size of a typical
 /// particle (its typical time, typical_scales.h). The limit of short steps is overdamped motion (scala2007).
 /// `vitrel bench brownian-step` measures how much longer relaxation takes: from φ = 0.3 to 0.8 by 2.2 % or less at 0.1,
-/// by 7 to 17 % at 0.3, and by 70 to 100 % at 1 (docs/studies/brownian-step.md). That hardly depends on the density, and
-/// so not on the gaps between particles: collisions are exact.
+/// by 7 to 17 % at 0.3, and by 70 to 100 % at 1 (docs/studies/brownian-step.md). That hardly depends on the density,
+/// and so not on the gaps between particles: collisions are exact.
 std::string long_step_text(double brownian_step, double typical_time);
 
 }  // namespace vitrel
