@@ -464,6 +464,10 @@ void File::close() {
   file_->close();
 }
 
+void File::set_path(const std::filesystem::path& path) {
+  file_->set_path(path);
+}
+
 bool File::is_being_written() const {
   return file_->is_being_written();
 }

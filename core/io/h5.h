@@ -185,6 +185,8 @@ class File {
 
   /// As it was given, for messages.
   const std::string& path() const;
+  /// The open file was renamed.
+  void set_path(const std::filesystem::path& path);
   Group root() const;
   /// Saves everything written so far, against a kill of the process but not a loss of power.
   void flush();

@@ -63,6 +63,11 @@ Handle OpenFile::access() {
   return access;
 }
 
+void OpenFile::set_path(const std::filesystem::path& path) {
+  path_ = path.string();
+  if (content_) content_->set_path(path);
+}
+
 void OpenFile::create() {
   const Check check(*this, "create the file", "");
   const Handle creation(check(H5Pcreate(H5P_FILE_CREATE)));

@@ -40,6 +40,7 @@ class OpenFile {
 
   Id id() const { return id_; }
   const std::string& path() const { return path_; }
+  void set_path(const std::filesystem::path& path);
 
   /// Throws FileError with `reason`, or the earlier one after which nothing was written any more.
   [[noreturn]] void fail(std::string_view action, std::string_view object,

@@ -152,8 +152,11 @@ TrajectoryWriter TrajectoryWriter::create(const fs::path& path,
   refuse_existing(path, options.overwrite);
   AtomicFile pending(path);
   create_layout(pending.partial(), configuration, provenance, options).close();
+  // Open before others see it: a file that nobody writes is one of a run that has ended.
+  TrajectoryWriter writer = append_to(pending.partial(), 0);
   pending.commit();
-  return append_to(path, 0);
+  writer.file_.set_path(path);
+  return writer;
 }
 
 TrajectoryWriter TrajectoryWriter::append_to(const fs::path& path, std::uint64_t frames_to_keep) {

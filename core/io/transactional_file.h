@@ -51,6 +51,8 @@ class TransactionalFile {
   TransactionalFile& operator=(const TransactionalFile&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// Messages name this path from now on: the file was renamed.
+  void set_path(std::filesystem::path path) { path_ = std::move(path); }
   bool writable() const { return mode_ != Mode::read; }
   std::uint64_t size() const { return size_; }
   /// Why reading or writing failed first; empty if it did not.

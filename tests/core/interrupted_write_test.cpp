@@ -1,5 +1,7 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -9,6 +11,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <thread>
 #include <utility>
 
 #include "core/error.h"
@@ -311,6 +315,23 @@ TEST_F(TrajectoryBeingWritten, ASlowCopyHasFramesOfOneCommitOrIsRefused) {
 }
 
 // HDF5 calls the function that reads, and would not survive an exception.
+/// Else a reader would take a run that has just begun for one that has ended without a frame.
+TEST_F(InterruptedTrajectory, IsLockedFromTheMomentThatItIsSeen) {
+  for (int k = 0; k < 10; ++k) {
+    const std::string path = file("run" + std::to_string(k) + ".h5");
+    bool was_locked = false;
+    std::thread watcher([&] {
+      int descriptor = -1;
+      while (descriptor < 0) descriptor = ::open(path.c_str(), O_RDONLY);
+      was_locked = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;
+      static_cast<void>(::close(descriptor));
+    });
+    const auto writer = TrajectoryWriter::create(path, frame(0), Provenance());
+    watcher.join();
+    EXPECT_TRUE(was_locked) << k;
+  }
+}
+
 TEST_F(InterruptedTrajectory, ADiskThatCannotBeReadIsOneMessage) {
   long call = 0;
   for (bool fails = true; fails; ++call) {
