@@ -116,7 +116,8 @@ void Object::set_attribute(const std::string& name, std::span<const T> values) {
 
 namespace {
 
-/// Reads strings of either kind HDF5 has; `read` fills memory of the type it is given.
+/// Reads strings of either kind HDF5 has; `read` fills memory of the type it is given. What is no string, or longer
+/// than a file would hold, is empty.
 std::vector<std::string> read_strings(const Check& check, const Handle& stored, std::size_t count,
                                       auto&& read) {
   std::vector<std::string> texts(count);
@@ -131,6 +132,7 @@ std::vector<std::string> read_strings(const Check& check, const Handle& stored, 
     return texts;
   }
   const std::size_t width = check(H5Tget_size(stored.id()));
+  if (width > largest_text / std::max<std::size_t>(1, count)) return texts;
   std::string block(count * width, '\0');
   check(read(stored.id(), block.data()));
   for (std::size_t k = 0; k < count; ++k) texts[k] = block.substr(k * width, width).c_str();
@@ -143,9 +145,7 @@ std::vector<std::string> Object::texts_attribute(const std::string& name) const 
   const Check check(*file_, "read attribute", name);
   const Handle attribute(check(H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT)));
   const Handle type(check(H5Aget_type(attribute.id())));
-  const Handle space(check(H5Aget_space(attribute.id())));
-  const hssize_t count = check(H5Sget_simple_extent_npoints(space.id()));
-  return read_strings(check, type, static_cast<std::size_t>(std::max<hssize_t>(0, count)),
+  return read_strings(check, type, attribute_size(*file_, attribute, name),
                       [&](Id memory, void* out) { return H5Aread(attribute.id(), memory, out); });
 }
 
@@ -160,18 +160,13 @@ template <class T>
 T Object::number_attribute(const std::string& name) const {
   const Check check(*file_, "read attribute", name);
   const Handle attribute(check(H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT)));
-  const Handle space(check(H5Aget_space(attribute.id())));
-  std::vector<T> values(std::max<hssize_t>(1, check(H5Sget_simple_extent_npoints(space.id()))));
+  std::vector<T> values(std::max<std::size_t>(1, attribute_size(*file_, attribute, name)));
   check(H5Aread(attribute.id(), type_names<T>().native, values.data()));
   return values.front();
 }
 
 Shape Dataset::shape() const {
-  const Check check(*file_, "inspect", name_);
-  const Handle space(check(H5Dget_space(handle_.id())));
-  Shape shape(check(H5Sget_simple_extent_ndims(space.id())));
-  check(H5Sget_simple_extent_dims(space.id(), sizes(shape), nullptr));
-  return shape;
+  return shape_of({*file_, "inspect", name_}, handle_);
 }
 
 template <class T>
@@ -228,7 +223,7 @@ std::size_t Dataset::bytes_per_number() const {
 }
 
 Dataset::FrameSpaces Dataset::frame_spaces(std::uint64_t first, std::uint64_t count,
-                                           std::size_t values) const {
+                                           std::uint64_t values) const {
   Shape block = shape();
   const std::uint64_t frames = block.empty() ? 0 : block[0];
   if (count > frames || first > frames - count)
@@ -258,12 +253,16 @@ void Dataset::write_frames(std::uint64_t first, std::uint64_t count, std::span<c
 }
 
 template <class T>
-void Dataset::read_frames(std::uint64_t first, std::uint64_t count, std::span<T> values) const {
-  const FrameSpaces spaces = frame_spaces(first, count, values.size());
+std::vector<T> Dataset::read_frames(std::uint64_t first, std::uint64_t count,
+                                    std::uint64_t numbers) const {
+  const FrameSpaces spaces = frame_spaces(first, count, count * numbers);
+  std::vector<T> values(count * numbers);
+  if (values.empty()) return values;
   require_checksums(*file_, handle_, name_, shape(), first, first + count - 1);
   const Check check(*file_, "read", name_);
   check(H5Dread(handle_.id(), type_names<T>().native, spaces.memory.id(), spaces.file.id(),
                 H5P_DEFAULT, values.data()));
+  return values;
 }
 
 std::vector<std::string> Dataset::enumeration() const {
@@ -482,7 +481,8 @@ void File::reopen() {
   template std::vector<T> Dataset::read<T>() const;                                              \
   template void Dataset::write<T>(std::span<const T>);                                           \
   template void Dataset::write_frames<T>(std::uint64_t, std::uint64_t, std::span<const T>);      \
-  template void Dataset::read_frames<T>(std::uint64_t, std::uint64_t, std::span<T>) const;       \
+  template std::vector<T> Dataset::read_frames<T>(std::uint64_t, std::uint64_t, std::uint64_t)   \
+      const;                                                                                     \
   template Dataset Group::create_array<T>(const std::string&, const Shape&, std::span<const T>); \
   template Dataset Group::create_series<T>(const std::string&, const Shape&, std::uint64_t);
 

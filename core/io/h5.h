@@ -102,11 +102,12 @@ class Dataset : public Object {
 
   /// Cuts or extends a series to `frames` frames; new ones are missing until written.
   void resize(std::uint64_t frames);
-  /// Frames of the series from `first` on; `values` must have their size. Whole chunks at a time are fastest.
+  /// Frames of the series from `first` on; `values` must have their size. Whole chunks at a time are fastest. Frames
+  /// that are read must have this many `numbers` each.
   template <class T>
   void write_frames(std::uint64_t first, std::uint64_t count, std::span<const T> values);
   template <class T>
-  void read_frames(std::uint64_t first, std::uint64_t count, std::span<T> values) const;
+  std::vector<T> read_frames(std::uint64_t first, std::uint64_t count, std::uint64_t numbers) const;
   /// How many frames of a series lie together; 1 of an array that is stored otherwise.
   std::uint64_t frames_per_chunk() const;
   /// The size of a number in the file.
@@ -123,7 +124,7 @@ class Dataset : public Object {
   struct FrameSpaces {
     Handle file, memory;
   };
-  FrameSpaces frame_spaces(std::uint64_t first, std::uint64_t count, std::size_t values) const;
+  FrameSpaces frame_spaces(std::uint64_t first, std::uint64_t count, std::uint64_t values) const;
 };
 
 /// A chunk holds no more particles than this, so that little is read in vain where a few are followed through

@@ -95,11 +95,21 @@ class Check {
 bool has_link(OpenFile& file, const Handle& group, const std::string& name,
               const std::string& path);
 
-/// Throws FileError unless the data of the dataset lie in this file, by themselves, and HDF5's own filters read them.
+/// Empty for a scalar.
+Shape shape_of(const Check& check, const Handle& dataset);
+
+constexpr std::size_t largest_text = std::size_t{1}
+                                     << 26;  ///< bytes; damaged files may state any length
+
+/// The number of values of an attribute, at most the largest text's.
+std::size_t attribute_size(OpenFile& file, const Handle& attribute, const std::string& name);
+
+/// Throws FileError unless the data of the dataset lie in this file, by themselves, HDF5's own filters read them, and
+/// they are not more than the file can hold.
 void require_plain_storage(OpenFile& file, const Handle& dataset, const std::string& name);
 
-/// Throws FileError if a chunk of frames first … last is too short for the checksum that it should have: HDF5 would
-/// read beyond its memory.
+/// Throws FileError if a chunk of frames first … last is too short for the checksum that it should have, so that HDF5
+/// would read beyond its memory, or longer than the file.
 void require_checksums(OpenFile& file, const Handle& dataset, const std::string& name,
                        const Shape& extent, std::uint64_t first, std::uint64_t last);
 

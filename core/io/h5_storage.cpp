@@ -1,5 +1,6 @@
 #include "core/io/h5_open_file.h"
 
+#include <fmt/format.h>
 #include <hdf5.h>
 
 #include <algorithm>
@@ -38,6 +39,12 @@ bool has_chunk(const Check& check, const Handle& dataset, const Shape& at) {
   return address != HADDR_UNDEF;
 }
 
+hsize_t file_size(const Check& check, const OpenFile& file) {
+  hsize_t bytes = 0;
+  check(H5Fget_filesize(file.id(), &bytes));
+  return bytes;
+}
+
 }  // namespace
 
 bool has_link(OpenFile& file, const Handle& group, const std::string& name,
@@ -59,6 +66,45 @@ bool has_link(OpenFile& file, const Handle& group, const std::string& name,
   }
 }
 
+namespace {
+
+/// A damaged file may state any size, for which there would be no memory. The stored bytes of an array limit it by
+/// the largest factor of compression; only small arrays may have more numbers that were never written.
+void require_stored_numbers(OpenFile& file, const Handle& dataset, const std::string& name) {
+  constexpr double best_compression = 1032, never_written = 1 << 23;
+  const Check check(file, "inspect", name);
+  double stated = 1;
+  for (const std::uint64_t extent : shape_of(check, dataset))
+    stated *= static_cast<double>(std::max<std::uint64_t>(1, extent));
+  if (stated <= never_written) return;
+  const hsize_t stored = std::min(H5Dget_storage_size(dataset.id()), file_size(check, file));
+  if (stated > never_written + best_compression * static_cast<double>(stored))
+    throw_file_error(
+        file.path(), "read", name,
+        fmt::format("its shape is that of {:g} numbers, but the file holds {} bytes of "
+                    "them; it is damaged",
+                    stated, stored));
+}
+
+}  // namespace
+
+Shape shape_of(const Check& check, const Handle& dataset) {
+  const Handle space(check(H5Dget_space(dataset.id())));
+  Shape shape(check(H5Sget_simple_extent_ndims(space.id())));
+  check(H5Sget_simple_extent_dims(space.id(), reinterpret_cast<hsize_t*>(shape.data()), nullptr));
+  return shape;
+}
+
+std::size_t attribute_size(OpenFile& file, const Handle& attribute, const std::string& name) {
+  const Check check(file, "read attribute", name);
+  const Handle space(check(H5Aget_space(attribute.id())));
+  const auto count = static_cast<std::size_t>(check(H5Sget_simple_extent_npoints(space.id())));
+  if (count > largest_text)
+    throw_file_error(file.path(), "read attribute", name,
+                     fmt::format("it states {} values; the file is damaged", count));
+  return count;
+}
+
 void require_plain_storage(OpenFile& file, const Handle& dataset, const std::string& name) {
   const Check check(file, "inspect", name);
   const Handle creation(check(H5Dget_create_plist(dataset.id())));
@@ -73,6 +119,7 @@ void require_plain_storage(OpenFile& file, const Handle& dataset, const std::str
       throw_file_error(file.path(), "read", name,
                        "it is stored by the filter " + std::to_string(filter) +
                            ", which is not one of HDF5's own; h5repack -f GZIP=1 changes that");
+  require_stored_numbers(file, dataset, name);
 }
 
 void require_checksums(OpenFile& file, const Handle& dataset, const std::string& name,
@@ -86,13 +133,14 @@ void require_checksums(OpenFile& file, const Handle& dataset, const std::string&
   Shape chunk(extent.size());
   check(H5Pget_chunk(creation.id(), static_cast<int>(chunk.size()),
                      reinterpret_cast<hsize_t*>(chunk.data())));
+  const hsize_t whole = file_size(check, file);
   Shape at(extent.size(), 0);
   at[0] = first / chunk[0] * chunk[0];
   while (at[0] <= last) {
     hsize_t bytes = 0;
     check(H5Dget_chunk_storage_size(dataset.id(), reinterpret_cast<const hsize_t*>(at.data()),
                                     &bytes));
-    if (bytes < checksum && has_chunk(check, dataset, at))
+    if (bytes > whole || (bytes < checksum && has_chunk(check, dataset, at)))
       throw_file_error(file.path(), "read", name, "the file is damaged");
     std::size_t axis = at.size() - 1;
     for (at[axis] += chunk[axis]; axis > 0 && at[axis] >= extent[axis]; at[axis] += chunk[axis]) {

@@ -257,8 +257,8 @@ void TrajectoryReader::load(Block& block, const h5::Dataset& values, std::uint64
   const std::uint64_t together = std::min(values.frames_per_chunk(), most);
   block.first = frame / together * together;
   const std::uint64_t count = std::min(together, frames() - block.first);
-  block.values.resize(count * block.numbers);
-  values.read_frames<double>(block.first, count, block.values);
+  block.values = {};  // first, so that there are never two
+  block.values = values.read_frames<double>(block.first, count, block.numbers);
   const auto strange =
       std::ranges::find_if_not(block.values, [](double x) { return std::isfinite(x); });
   if (strange != block.values.end())
@@ -432,19 +432,21 @@ void TrajectoryReader::read_close_pairs(std::uint64_t frame,
     return dataset(group + name, "the close pairs of every frame");
   };
   configuration.close_pairs.clear();
-  const h5::Dataset& end = column("end");
-  std::int64_t first = 0, last = 0;
-  if (frame > 0) end.read_frames<std::int64_t>(frame - 1, 1, {&first, 1});
-  end.read_frames<std::int64_t>(frame, 1, {&last, 1});
-  if (first < 0 || last <= first) return;
+  const auto end = [&](std::uint64_t at) {
+    return column("end").template read_frames<std::int64_t>(at, 1, 1).front();
+  };
+  const std::int64_t first = frame > 0 ? end(frame - 1) : 0, last = end(frame);
+  if (first < 0 || last < first)
+    fail(
+        fmt::format("{}end should count the pairs up to the end of every frame, but goes from {} "
+                    "to {} in frame {}",
+                    group, first, last, frame));
+  if (last == first) return;
   const auto begin = static_cast<std::uint64_t>(first),
              count = static_cast<std::uint64_t>(last - first);
-  std::vector<std::int64_t> pairs(2 * count);
-  std::vector<std::int32_t> lags(3 * count);
-  std::vector<double> distances(count);
-  column("pair").template read_frames<std::int64_t>(begin, count, pairs);
-  column("lag").template read_frames<std::int32_t>(begin, count, lags);
-  column("distance").template read_frames<double>(begin, count, distances);
+  const auto pairs = column("pair").template read_frames<std::int64_t>(begin, count, 2);
+  const auto lags = column("lag").template read_frames<std::int32_t>(begin, count, 3);
+  const auto distances = column("distance").template read_frames<double>(begin, count, 1);
   for (std::size_t k = 0; k < count; ++k) {
     const std::int64_t* const pair = &pairs[2 * k];
     const auto n = static_cast<std::int64_t>(particles());

@@ -287,7 +287,10 @@ void TrajectoryWriter::keep(std::uint64_t frames) {
 }
 
 void TrajectoryWriter::ClosePairs::keep(std::uint64_t frames) {
-  if (frames > 0) end.dataset.read_frames<std::int64_t>(frames - 1, 1, {&rows, 1});
+  if (frames > 0) rows = end.dataset.read_frames<std::int64_t>(frames - 1, 1, 1).front();
+  if (rows < 0 || static_cast<std::uint64_t>(rows) > pair.dataset.shape().at(0))
+    throw FileError(fmt::format("{} states {} close pairs, but there are {}", end.dataset.name(),
+                                rows, pair.dataset.shape().at(0)));
   for (h5::Dataset* dataset : {&pair.dataset, &lag.dataset, &distance.dataset})
     dataset->resize(static_cast<std::uint64_t>(rows));
 }
@@ -380,12 +383,10 @@ void TrajectoryWriter::widen_images() {
   h5::Dataset wide = group.create_series<std::int32_t>("wide", {particles_, 3}, frames_at_once_);
   const std::uint64_t frames = image_->dataset.shape().at(0);
   wide.resize(frames);
-  std::vector<std::int32_t> images;
   for (std::uint64_t first = 0; first < frames; first += frames_at_once_) {
     const std::uint64_t count = std::min(frames_at_once_, frames - first);
-    images.resize(count * 3 * particles_);
-    image_->dataset.read_frames<std::int32_t>(first, count, images);
-    wide.write_frames<std::int32_t>(first, count, images);
+    wide.write_frames<std::int32_t>(
+        first, count, image_->dataset.read_frames<std::int32_t>(first, count, 3 * particles_));
   }
   group.remove("value");
   group.link("value", all + "/image/wide");

@@ -92,8 +92,7 @@ TEST(Hardening, PositionsFarFromTheBoxAreRefused) {
   {
     h5::File file = h5::File::open(folder / "state.h5", h5::Access::write);
     h5::Dataset positions = file.root().dataset("particles/all/position/value");
-    std::vector<double> values(3 * 12);
-    positions.read_frames<double>(0, 1, values);
+    std::vector<double> values = positions.read_frames<double>(0, 1, 3 * 12);
     values[3 * 7] = -1e300;
     positions.write_frames<double>(0, 1, values);
     file.close();
@@ -117,16 +116,40 @@ TEST(Hardening, BoxesOfExtremeProportionsAreRefused) {
       "more than a factor of 1e+06");
 }
 
-TEST(Hardening, ClosePairsOfDistantImagesAreRefused) {
-  const Folder folder("close_pairs");
+void write_close_pair(const Folder& folder, const Shift<2>& shift) {
   Configuration<2> c = line_of_bodies<2>();
-  c.close_pairs = {{{0, 1, {INT32_MAX, 0}}, 1}};
+  c.close_pairs = {{{0, 1, shift}, 1}};
   TrajectoryWriter writer = TrajectoryWriter::create(folder / "state.h5", c, Provenance{},
                                                      {.velocities = true, .close_pairs = true});
   writer.write(c, 0);
   writer.close();
+}
+
+TEST(Hardening, ClosePairsOfDistantImagesAreRefused) {
+  const Folder folder("close_pairs");
+  write_close_pair(folder, {INT32_MAX, 0});
   expect_all_refuse(folder, {{"check", "state.h5"}, {"export", "state.h5", "--to", "xyz"}},
                     "state.h5: row 0 of particles/all/close_pairs/lag should be the shift");
+}
+
+TEST(Hardening, ClosePairsThatAreNotThereAreRefused) {
+  const std::string group = "particles/all/close_pairs/";
+  const auto number = [](std::int64_t end) {
+    return fmt::format("should count the pairs up to the end of every frame, but goes from 0 to {}",
+                       end);
+  };
+  for (const auto& [end, message] : std::map<std::int64_t, std::string>{
+           {2, "cannot access frame 1 of " + group + "pair: it has 1 frames"},
+           {INT64_MAX, "of " + group + "pair: it has 1 frames"},
+           {-1, number(-1)}}) {
+    const Folder folder("numbers_of_close_pairs");
+    write_close_pair(folder, {0, 0});
+    h5::File file = h5::File::open(folder / "state.h5", h5::Access::write);
+    file.root().dataset(group + "end").write_frames<std::int64_t>(0, 1, {&end, 1});
+    file.close();
+    expect_all_refuse(folder, {{"check", "state.h5"}, {"export", "state.h5", "--to", "xyz"}},
+                      message);
+  }
 }
 
 // HDF5 takes the checksum off what it has read without asking for its length.

@@ -105,6 +105,28 @@ TEST_F(StorageOfHdf5, BySoftLinksIsRefused) {
         "soft link");
 }
 
+// Memory for them would be missing, or take minutes to fill.
+TEST_F(StorageOfHdf5, OfFewerNumbersThanStatedIsRefused) {
+  constexpr hsize_t huge = hsize_t{1} << 40;
+  for (const std::array<hsize_t, 2> extent :
+       {std::array{huge, hsize_t{1}}, {huge, huge}, {huge, 0}})
+    expect_refusal(
+        [&](hid_t file) {
+          const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+          constexpr std::array<hsize_t, 2> chunk{4, 1};
+          EXPECT_GE(H5Pset_chunk(properties, 2, chunk.data()), 0);
+          constexpr std::array<hsize_t, 2> none{0, 0}, all{H5S_UNLIMITED, H5S_UNLIMITED};
+          const hid_t space = H5Screate_simple(2, none.data(), all.data());
+          const hid_t dataset =
+              H5Dcreate2(file, "x", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT);
+          EXPECT_GE(H5Dset_extent(dataset, extent.data()), 0);
+          EXPECT_GE(H5Dclose(dataset), 0);
+          EXPECT_GE(H5Sclose(space), 0);
+          EXPECT_GE(H5Pclose(properties), 0);
+        },
+        "the file holds 0 bytes of them");
+}
+
 TEST_F(StorageOfHdf5, ThatVitrelReadsNeedsNothingElse) {
   const auto expect_read = [&](const std::function<void(hid_t)>& content) {
     write("a.h5", content);

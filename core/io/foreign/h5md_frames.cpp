@@ -68,10 +68,8 @@ class Element {
     const auto frame = static_cast<std::uint64_t>(here - steps_.begin());
     last_ = frame + 1;
     const h5::Shape one = shape();
-    std::vector<double> numbers(
-        std::accumulate(one.begin(), one.end(), std::uint64_t{1}, std::multiplies<>()));
-    value_.read_frames<double>(frame, 1, numbers);
-    return numbers;
+    return value_.read_frames<double>(
+        frame, 1, std::accumulate(one.begin(), one.end(), std::uint64_t{1}, std::multiplies<>()));
   }
 
  private:
