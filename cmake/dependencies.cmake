@@ -39,8 +39,9 @@ set(hdf5_archive ${hdf5_archive} sz z ${CMAKE_DL_LIBS} m)
 include(CheckCXXSourceCompiles)
 set(CMAKE_REQUIRED_INCLUDES ${HDF5_INCLUDE_DIRS})
 set(CMAKE_REQUIRED_LIBRARIES ${hdf5_archive})
-check_cxx_source_compiles("#include <hdf5.h>\nint main() { return H5open() + H5Dclose(H5Dopen2(0, \"x\", 0)); }"
-                          VITREL_HDF5_ARCHIVE_LINKS)
+check_cxx_source_compiles(
+  "#include <hdf5.h>\nint main() { return H5Dclose(H5Dopen2(0, \"x\", 0)) + H5Pset_driver(0, H5FDregister(nullptr), nullptr); }"
+  VITREL_HDF5_ARCHIVE_LINKS)
 unset(CMAKE_REQUIRED_INCLUDES)
 unset(CMAKE_REQUIRED_LIBRARIES)
 if(VITREL_HDF5_ARCHIVE_LINKS)

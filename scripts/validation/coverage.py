@@ -135,8 +135,6 @@ def bias_text(of_systems):
     """By what relaxation times differ on average if runs end as soon as these are known, from runs of the same seeds that
     do not.
     """
-    import numpy
-
     (known, _), (fixed, _) = (of_systems[system] for system in ("until_known", "brownian_ellipses"))
     texts = []
     for relative in (known / fixed - 1).T:
