@@ -116,8 +116,7 @@ void Object::set_attribute(const std::string& name, std::span<const T> values) {
 
 namespace {
 
-/// Reads strings of either kind HDF5 has; `read` fills memory of the type it is given. What is no string, or longer
-/// than a file would hold, is empty.
+/// Reads strings of either kind HDF5 has; `read` fills memory of the type it is given. What is no string is empty.
 std::vector<std::string> read_strings(const Check& check, const Handle& stored, std::size_t count,
                                       auto&& read) {
   std::vector<std::string> texts(count);
@@ -132,7 +131,8 @@ std::vector<std::string> read_strings(const Check& check, const Handle& stored, 
     return texts;
   }
   const std::size_t width = check(H5Tget_size(stored.id()));
-  if (width > largest_text / std::max<std::size_t>(1, count)) return texts;
+  if (width > largest_text / std::max<std::size_t>(1, count))
+    check.refuse("it states a text of " + std::to_string(width) + " bytes; the file is damaged");
   std::string block(count * width, '\0');
   check(read(stored.id(), block.data()));
   for (std::size_t k = 0; k < count; ++k) texts[k] = block.substr(k * width, width).c_str();
@@ -145,7 +145,7 @@ std::vector<std::string> Object::texts_attribute(const std::string& name) const 
   const Check check(*file_, "read attribute", name);
   const Handle attribute(check(H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT)));
   const Handle type(check(H5Aget_type(attribute.id())));
-  return read_strings(check, type, attribute_size(*file_, attribute, name),
+  return read_strings(check, type, attribute_size(check, attribute),
                       [&](Id memory, void* out) { return H5Aread(attribute.id(), memory, out); });
 }
 
@@ -160,7 +160,7 @@ template <class T>
 T Object::number_attribute(const std::string& name) const {
   const Check check(*file_, "read attribute", name);
   const Handle attribute(check(H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT)));
-  std::vector<T> values(std::max<std::size_t>(1, attribute_size(*file_, attribute, name)));
+  std::vector<T> values(std::max<std::size_t>(1, attribute_size(check, attribute)));
   check(H5Aread(attribute.id(), type_names<T>().native, values.data()));
   return values.front();
 }

@@ -81,6 +81,10 @@ class Check {
     if (is_failure(result)) file_.fail(action_, object_);
     return result;
   }
+  /// Throws FileError with this reason: what the file holds is of no use.
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw_file_error(file_.path(), action_, object_, reason);
+  }
 
  private:
   OpenFile& file_;
@@ -98,11 +102,11 @@ bool has_link(OpenFile& file, const Handle& group, const std::string& name,
 /// Empty for a scalar.
 Shape shape_of(const Check& check, const Handle& dataset);
 
-constexpr std::size_t largest_text = std::size_t{1}
-                                     << 26;  ///< bytes; damaged files may state any length
+/// Bytes; damaged files may state any length.
+constexpr std::size_t largest_text = std::size_t{1} << 26;
 
-/// The number of values of an attribute, at most the largest text's.
-std::size_t attribute_size(OpenFile& file, const Handle& attribute, const std::string& name);
+/// The number of values of an attribute. Throws FileError if it exceeds the length of the largest text.
+std::size_t attribute_size(const Check& check, const Handle& attribute);
 
 /// Throws FileError unless the data of the dataset lie in this file, by themselves, HDF5's own filters read them, and
 /// they are not more than the file can hold.

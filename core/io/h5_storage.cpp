@@ -95,13 +95,11 @@ Shape shape_of(const Check& check, const Handle& dataset) {
   return shape;
 }
 
-std::size_t attribute_size(OpenFile& file, const Handle& attribute, const std::string& name) {
-  const Check check(file, "read attribute", name);
+std::size_t attribute_size(const Check& check, const Handle& attribute) {
   const Handle space(check(H5Aget_space(attribute.id())));
   const auto count = static_cast<std::size_t>(check(H5Sget_simple_extent_npoints(space.id())));
   if (count > largest_text)
-    throw_file_error(file.path(), "read attribute", name,
-                     fmt::format("it states {} values; the file is damaged", count));
+    check.refuse(fmt::format("it states {} values; the file is damaged", count));
   return count;
 }
 

@@ -139,8 +139,8 @@ class TrajectoryWriter {
     Numbers distance;
     std::int64_t rows = 0;
 
-    /// Those of the first frames.
-    void keep(std::uint64_t frames);
+    /// Those of the first frames. Throws FileError with the path if there are fewer than `end` says.
+    void keep(std::uint64_t frames, const std::string& path);
     template <int Dim>
     void add(const Configuration<Dim>& configuration);
   };

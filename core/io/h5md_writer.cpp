@@ -282,15 +282,16 @@ void TrajectoryWriter::for_each_series(Visit&& visit) {
 
 void TrajectoryWriter::keep(std::uint64_t frames) {
   for_each_series([&](auto& series) { series.dataset.resize(frames); });
-  if (close_pairs_) close_pairs_->keep(frames);
+  if (close_pairs_) close_pairs_->keep(frames, file_.path());
   frames_ = frames;
 }
 
-void TrajectoryWriter::ClosePairs::keep(std::uint64_t frames) {
+void TrajectoryWriter::ClosePairs::keep(std::uint64_t frames, const std::string& path) {
   if (frames > 0) rows = end.dataset.read_frames<std::int64_t>(frames - 1, 1, 1).front();
-  if (rows < 0 || static_cast<std::uint64_t>(rows) > pair.dataset.shape().at(0))
-    throw FileError(fmt::format("{} states {} close pairs, but there are {}", end.dataset.name(),
-                                rows, pair.dataset.shape().at(0)));
+  const std::uint64_t present = pair.dataset.shape().at(0);
+  if (rows < 0 || static_cast<std::uint64_t>(rows) > present)
+    throw FileError(fmt::format("{}: {} states {} close pairs, but there are {}", path,
+                                end.dataset.name(), rows, present));
   for (h5::Dataset* dataset : {&pair.dataset, &lag.dataset, &distance.dataset})
     dataset->resize(static_cast<std::uint64_t>(rows));
 }

@@ -54,9 +54,10 @@ def expect_success(words):
 def measure_target(program, target, pool):
     """All cores share the inputs of one target. Bound to its core, no process waits for threads of its own."""
     commit_file(target).unlink(missing_ok=True)
-    share = -(-COUNT // os.cpu_count())
-    commands = [["taskset", "-c", str(core), program, "--target", target, "--first", str(core * share), "--inputs",
-                 str(min(share, COUNT - core * share)), "--keep", KEPT] for core in range(os.cpu_count())]
+    cores = sorted(os.sched_getaffinity(0))
+    share = -(-COUNT // len(cores))
+    commands = [["taskset", "-c", str(core), program, "--target", target, "--first", str(first), "--inputs",
+                 str(min(share, COUNT - first)), "--keep", KEPT] for core, first in zip(cores, range(0, COUNT, share))]
     if target == "python":
         commands = [["ctest", "--test-dir", ROOT / "build/asan", "--output-on-failure", "-R", r"^python\."]]
     list(pool.map(expect_success, commands))

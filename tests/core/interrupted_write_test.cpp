@@ -314,8 +314,7 @@ TEST_F(TrajectoryBeingWritten, ASlowCopyHasFramesOfOneCommitOrIsRefused) {
   EXPECT_GT(refused, 100);
 }
 
-// HDF5 calls the function that reads, and would not survive an exception.
-/// Else a reader would take a run that has just begun for one that has ended without a frame.
+// Else a reader would take a run that has just begun for one that has ended without a frame.
 TEST_F(InterruptedTrajectory, IsLockedFromTheMomentThatItIsSeen) {
   for (int k = 0; k < 10; ++k) {
     const std::string path = file("run" + std::to_string(k) + ".h5");
@@ -332,6 +331,7 @@ TEST_F(InterruptedTrajectory, IsLockedFromTheMomentThatItIsSeen) {
   }
 }
 
+// HDF5 calls the function that reads, and would not survive an exception.
 TEST_F(InterruptedTrajectory, ADiskThatCannotBeReadIsOneMessage) {
   long call = 0;
   for (bool fails = true; fails; ++call) {
