@@ -13,81 +13,6 @@ namespace vitrel {
 
 namespace {
 
-/// The sides over L_x as a run began.
-template <int Dim>
-Vec<Dim> proportions_at_start(const BoxState& box) {
-  if constexpr (Dim == 2)
-    return {1, box.aspect_at_start};
-  else
-    return {1, box.aspect_at_start, box.depth_at_start};
-}
-
-}  // namespace
-
-template <int Dim>
-PressureSampler<Dim>::PressureSampler(Configuration<Dim>& configuration, double pressure,
-                                      BoxChange change, std::uint64_t seed, const SweepState& moves,
-                                      const BoxState& box, int threads)
-    : configuration_(configuration),
-      pressure_(pressure),
-      change_(change),
-      seed_(seed),
-      box_(box),
-      moves_(configuration, seed, moves, threads) {
-  if (box_.aspect_at_start != 0) return;
-  const Vec<Dim>& lengths = configuration.box.lengths();
-  box_.aspect_at_start = lengths[1] / lengths[0];
-  box_.depth_at_start = lengths[Dim - 1] / lengths[0];
-}
-
-template <int Dim>
-void PressureSampler<Dim>::sweep() {
-  for (std::uint64_t trial = 0; trial < box_trials; ++trial)
-    try_box(Stream(seed_, Purpose::box_trials, moves_.state().next_sweep, trial));
-  moves_.sweep();
-}
-
-template <int Dim>
-void PressureSampler<Dim>::try_box(Stream draw) {
-  const double growth = draw.uniform(-box_.step.size, box_.step.size);  // of ln V
-  Vec<Dim> factors = Vec<Dim>::Constant(exponential(growth / Dim));
-  if (change_ == BoxChange::anisotropic) {
-    factors = Vec<Dim>::Ones();
-    factors[static_cast<Eigen::Index>(draw.below(Dim))] = exponential(growth);
-  }
-  const double volume = configuration_.box.volume();
-  const auto exponent = static_cast<double>(configuration_.size() + 1);
-  const double weight = exponent * growth - pressure_ * volume * exponential_minus_one(growth);
-  const bool accepted = draw.uniform() < exponential(weight) && change_box(factors);
-  ++box_.tried;
-  box_.accepted += accepted;
-  box_.step.count(1, accepted);
-}
-
-template <int Dim>
-bool PressureSampler<Dim>::change_box(const Vec<Dim>& factors) {
-  const Vec<Dim>& lengths = configuration_.box.lengths();
-  const Vec<Dim> at_start = proportions_at_start<Dim>(box_);
-  for (int k = 0; k < Dim; ++k)
-    for (int l = 0; l < k; ++l) {
-      const double change =
-          factors[k] / factors[l] * (lengths[k] / lengths[l]) / (at_start[k] / at_start[l]);
-      if (change > max_aspect_change || change < 1 / max_aspect_change) return false;
-    }
-  return moves_.rescale(factors);
-}
-
-template <int Dim>
-void PressureSampler<Dim>::tune() {
-  // Ever more trials, so that the last step is a good one.
-  constexpr std::uint64_t least = 20, share = 8;
-  constexpr double widest = 0.1;
-  moves_.tune();
-  box_.step.tune(std::max(least, box_.tried / share), widest);
-}
-
-namespace {
-
 double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -171,7 +96,7 @@ class Compression {
   Configuration<Dim>& configuration_;
   const CompressionOptions& options_;
   CompressionState& state_;
-  PressureSampler<Dim> sampler_;
+  PressureSampler<ParticleShape<Dim>> sampler_;
 };
 
 }  // namespace
@@ -182,8 +107,6 @@ StageReport compress(Configuration<Dim>& configuration, const CompressionOptions
   return Compression(configuration, options, seed, state).run(control);
 }
 
-template class PressureSampler<2>;
-template class PressureSampler<3>;
 template StageReport compress(Configuration2&, const CompressionOptions&, std::uint64_t,
                               CompressionState&, const RunControl&);
 template StageReport compress(Configuration3&, const CompressionOptions&, std::uint64_t,

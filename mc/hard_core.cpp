@@ -10,37 +10,10 @@
 
 namespace vitrel {
 
-namespace {
-
-/// `orientation` is whatever `separated` takes for this shape.
-template <int Dim, class Axes>
-bool own_images_separated(const PeriodicBox<Dim>& box, const ParticleShape<Dim>& shape,
-                          const Axes& orientation, double margin) {
-  bool clear = true;
-  box.for_each_image(Vec<Dim>::Zero(), 2 * shape.circumradius() + margin,
-                     [&](const Shift<Dim>& shift, const Vec<Dim>& d) {
-                       if (shift.isZero() || !clear) return;
-                       clear = separated(shape, orientation, shape, orientation, d, margin);
-                     });
-  return clear;
-}
-
-}  // namespace
-
 template <int Dim>
 double hard_margin(const Configuration<Dim>& configuration) {
   return tolerance::contact_gap(0.5 * configuration.box.lengths().maxCoeff() +
                                 largest_circumradius(configuration));
-}
-
-bool clear_of_periodic_images(const PeriodicBox<2>& box, const ParticleShape<2>& shape,
-                              const Vec2& axis, double margin) {
-  return own_images_separated<2>(box, shape, axis, margin);
-}
-
-bool clear_of_periodic_images(const PeriodicBox<3>& box, const ParticleShape<3>& shape,
-                              const Quaternion& orientation, double margin) {
-  return own_images_separated<3>(box, shape, orientation, margin);
 }
 
 template <int Dim>

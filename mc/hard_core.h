@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/contact/resting_bodies.h"
 #include "core/elementary.h"
 #include "core/state/configuration.h"
 
@@ -15,11 +16,17 @@ namespace vitrel {
 template <int Dim>
 double hard_margin(const Configuration<Dim>& configuration);
 
-/// Whether a particle keeps the margin to its own periodic images.
-bool clear_of_periodic_images(const PeriodicBox<2>& box, const ParticleShape<2>& shape,
-                              const Vec2& axis, double margin);
-bool clear_of_periodic_images(const PeriodicBox<3>& box, const ParticleShape<3>& shape,
-                              const Quaternion& orientation, double margin);
+/// Whether a body at rest (resting_bodies.h) keeps the margin to its own periodic images.
+template <int Dim, class Body>
+bool clear_of_periodic_images(const PeriodicBox<Dim>& box, const Body& body, double margin) {
+  bool clear = true;
+  box.for_each_image(Vec<Dim>::Zero(), 2 * body.shape.circumradius() + margin,
+                     [&](const Shift<Dim>& shift, const Vec<Dim>& d) {
+                       if (shift.isZero() || !clear) return;
+                       clear = separated(body, body, d, margin);
+                     });
+  return clear;
+}
 
 /// The first pair closer than the margin, if any.
 template <int Dim>

@@ -71,13 +71,6 @@ std::optional<AxisDistribution<Dim>> axis_distribution(const std::vector<double>
   return AxisDistribution<Dim>(Eigen::Map<const Tensor>(tensor.data()));
 }
 
-Vec2 axes_of(const Pose2& pose) {
-  return direction(pose.angle);
-}
-const Quaternion& axes_of(const Pose3& pose) {
-  return pose.orientation;
-}
-
 template <int Dim>
 class Insertion {
  public:
@@ -115,7 +108,9 @@ class Insertion {
       return separated(shape, pose, configuration_.shape[j], configuration_.pose(j), d, margin_);
     };
     return cells_.for_each_near(pose.position, reach, clear_of) &&
-           clear_of_periodic_images(configuration_.box, shape, axes_of(pose), margin_);
+           clear_of_periodic_images(
+               configuration_.box,
+               RestingBodies<ParticleShape<Dim>>::body(shape, orientation_of(pose)), margin_);
   }
 
   Configuration<Dim>& configuration_;

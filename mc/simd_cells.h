@@ -3,25 +3,21 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "core/contact/ellipse_batch.h"
-#include "core/contact/ellipsoid_overlap_batch.h"
+#include "core/contact/simd.h"
 
 namespace vitrel {
 
-/// Cell lists for SIMD batches: the particles of a cell fill the lanes of a linked list of groups, all but the last
+/// Cell lists for SIMD batches (`Batch` of resting_bodies.h): the particles of a cell fill the lanes of a linked list of groups, all but the last
 /// group full. A cell has no capacity limit, and a test reads few groups.
 ///
 /// The first group of a cell belongs to it; the others come from the free list of the cell's domain. A domain of n
 /// particles needs at most n/simd_width of those, wherever its particles are: ⌈k/simd_width⌉ − 1 < k/simd_width for a
 /// cell of k.
-template <int Dim>
+template <class Batch>
 class SimdCells {
-  using Batch = std::conditional_t<Dim == 2, EllipseBatch, EllipsoidBatch>;
-
  public:
   using Index = std::uint32_t;
   static constexpr Index none = std::numeric_limits<Index>::max();
@@ -63,8 +59,7 @@ class SimdCells {
     return FreeList(first);
   }
 
-  template <class Body>
-  void insert(std::size_t i, std::size_t cell, const Body& body, const Vec<Dim>& position,
+  void insert(std::size_t i, std::size_t cell, const auto& body, const auto& position,
               FreeList& free_list) {
     Index at = static_cast<Index>(cell);
     while (groups_[at].next != none) at = groups_[at].next;

@@ -120,8 +120,8 @@ class Swelling {
     }
   }
 
-  Outcome enlarge_waiting(Sampler<Dim>& sampler, std::vector<std::size_t>& waiting, double growth,
-                          const RunControl& control) {
+  Outcome enlarge_waiting(Sampler<ParticleShape<Dim>>& sampler, std::vector<std::size_t>& waiting,
+                          double growth, const RunControl& control) {
     for (std::uint64_t k = 0; k < max_sweeps_per_round && !waiting.empty(); ++k) {
       if (used_up(sampler.state())) return Outcome::no_room;
       if (control.stop_requested()) return Outcome::stopped;

@@ -3,11 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
-#include "core/contact/ellipse_overlap_batch.h"
-#include "core/contact/ellipsoid_overlap_batch.h"
+#include "core/contact/resting_bodies.h"
 #include "core/geometry/free_flight.h"
 #include "core/state/configuration.h"
 #include "mc/checkerboard.h"
@@ -35,25 +33,6 @@ inline double share_above(std::uint64_t word, double least) {
   return 2 * ((share - least) / (1 - least)) - 1;
 }
 
-/// What an overlap test needs of a particle besides its position.
-template <int Dim>
-using OrientedBody = std::conditional_t<Dim == 2, OrientedEllipse, OrientedEllipsoid>;
-
-inline OrientedEllipse oriented(const ParticleShape<2>& shape, double angle) {
-  return {shape, direction(angle)};
-}
-inline OrientedEllipsoid oriented(const ParticleShape<3>& shape, const Quaternion& orientation) {
-  return {shape, orientation};
-}
-
-/// Their orientation as the contact functions take it.
-inline const Vec2& axes_of(const OrientedEllipse& body) {
-  return body.axis;
-}
-inline const Quaternion& axes_of(const OrientedEllipsoid& body) {
-  return body.orientation;
-}
-
 /// An angle or a quaternion for each particle.
 inline std::vector<double>& orientations(Configuration2& configuration) {
   return configuration.angle;
@@ -73,12 +52,13 @@ inline Quaternion rotated(const ParticleShape<3>& shape, const Quaternion& orien
 }
 
 /// Bodies of all particles, in their order.
-template <int Dim>
-std::vector<OrientedBody<Dim>> oriented_bodies(Configuration<Dim>& configuration) {
-  std::vector<OrientedBody<Dim>> bodies;
+template <class Shape>
+auto resting_bodies(Configuration<Shape::dimension>& configuration) {
+  std::vector<typename RestingBodies<Shape>::Body> bodies;
   bodies.reserve(configuration.size());
   for (std::size_t i = 0; i < configuration.size(); ++i)
-    bodies.push_back(oriented(configuration.shape[i], orientations(configuration)[i]));
+    bodies.push_back(
+        RestingBodies<Shape>::body(Shape(configuration.shape[i]), orientations(configuration)[i]));
   return bodies;
 }
 
@@ -93,9 +73,10 @@ VITREL_INLINE Vec<Dim> offset_of(const std::array<double, Dim>& translation,
 
 /// Calls visit(group, offset of its positions, lanes) for all particles near a position in this cell but particle i and
 /// its images, nearest cells first, until one returns false; the result tells whether all were visited.
-template <int Dim, class Visit>
-VITREL_INLINE bool for_each_near_group(const Checkerboard<Dim>& board, const SimdCells<Dim>& cells,
-                                       std::size_t i, const Vec<Dim>& position,
+template <int Dim, class Batch, class Visit>
+VITREL_INLINE bool for_each_near_group(const Checkerboard<Dim>& board,
+                                       const SimdCells<Batch>& cells, std::size_t i,
+                                       const Vec<Dim>& position,
                                        const typename Checkerboard<Dim>::Cell& cell,
                                        Visit&& visit) {
   const std::size_t own = cells.group_index(i);
@@ -107,39 +88,28 @@ VITREL_INLINE bool for_each_near_group(const Checkerboard<Dim>& board, const Sim
       const auto& group = cells[at];
       if (!visit(group, offset, at == own ? others : all)) return false;
       at = group.next;
-    } while (at != SimdCells<Dim>::none);
+    } while (at != SimdCells<Batch>::none);
     return true;
   });
 }
 
-/// Whether particle i, with this shape and orientation, keeps the margin to all others at this position in this cell.
-VITREL_FLATTEN inline bool clear_of_others(const Checkerboard<2>& board, const SimdCells<2>& cells,
-                                           std::size_t i, const OrientedEllipse& body,
-                                           const std::vector<OrientedEllipse>& /*bodies*/,
-                                           double margin, const Vec2& position,
-                                           const Checkerboard<2>::Cell& cell,
-                                           OverlapTestCounts& tests) {
-  const OverlapBatch batch(body.shape, body.axis, margin);
-  return for_each_near_group(board, cells, i, position, cell,
-                             [&](const auto& group, const Vec2& offset, unsigned lanes) {
-                               ++tests.batches;
-                               return batch.clear_of(group, offset, lanes, tests.scalar_pairs);
-                             });
-}
-VITREL_FLATTEN inline bool clear_of_others(const Checkerboard<3>& board, const SimdCells<3>& cells,
-                                           std::size_t i, const OrientedEllipsoid& body,
-                                           const std::vector<OrientedEllipsoid>& bodies,
-                                           double margin, const Vec3& position,
-                                           const Checkerboard<3>::Cell& cell,
-                                           OverlapTestCounts& tests) {
-  EllipsoidOverlapBatch batch(body, bodies.data(), margin);
-  return for_each_near_group(board, cells, i, position, cell,
-                             [&](const auto& group, const Vec3& offset, unsigned lanes) {
-                               ++tests.batches;
-                               return batch.may_be_clear_of(group, group.particle, offset, lanes,
-                                                            tests.scalar_pairs);
-                             }) &&
-         batch.rest_is_clear(tests.scalar_pairs);
+/// Whether particle i, as this body, keeps the margin to all others at this position in this cell.
+template <class Shape>
+VITREL_INLINE bool clear_of_others(const Checkerboard<Shape::dimension>& board,
+                                   const SimdCells<typename RestingBodies<Shape>::Batch>& cells,
+                                   std::size_t i, const typename RestingBodies<Shape>::Body& body,
+                                   const std::vector<typename RestingBodies<Shape>::Body>& bodies,
+                                   double margin, const Vec<Shape::dimension>& position,
+                                   const typename Checkerboard<Shape::dimension>::Cell& cell,
+                                   OverlapTestCounts& tests) {
+  typename RestingBodies<Shape>::Overlaps overlaps(body, bodies.data(), margin);
+  const auto may_be_clear = [&](const auto& group, const Vec<Shape::dimension>& offset,
+                                unsigned lanes) {
+    ++tests.batches;
+    return overlaps.may_be_clear_of(group, offset, lanes, tests.scalar_pairs);
+  };
+  return for_each_near_group(board, cells, i, position, cell, may_be_clear) &&
+         overlaps.rest_is_clear(tests.scalar_pairs);
 }
 
 }  // namespace vitrel

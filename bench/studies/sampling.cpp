@@ -383,7 +383,7 @@ Json measure_threads(const StudyContext& context) {
     Configuration2 first = start, second = start;
     Sampler one(first, 1, {}, 1), two(second, 1, {}, 2);
     double best_of_one = std::numeric_limits<double>::infinity(), best_of_two = best_of_one;
-    const auto seconds = [&](Sampler<2>& sampler) {
+    const auto seconds = [&](Sampler<Ellipse>& sampler) {
       return seconds_of([&] {
         for (int k = 0; k < effort.sweeps; ++k) sampler.sweep();
       });

@@ -62,7 +62,7 @@ struct LocalMoves : SamplingMethod<Dim> {
   }
   ExchangeCounts exchanges() const override { return sampler.counts().exchanges; }
 
-  Sampler<Dim> sampler;
+  Sampler<ParticleShape<Dim>> sampler;
   ContactPressure pressure;
   bool measures = false;
   int sweeps = 0;
@@ -84,7 +84,7 @@ struct Chains : SamplingMethod<Dim> {
   }
   ExchangeCounts exchanges() const override { return chains.counts().exchanges; }
 
-  EventChain<Dim> chains;
+  EventChain<ParticleShape<Dim>> chains;
   ChainCounts before;
 };
 
@@ -148,7 +148,7 @@ struct ConstantPressure : SamplingMethod<Dim> {
   }
 
   double z, volume;
-  PressureSampler<Dim> sampler;
+  PressureSampler<ParticleShape<Dim>> sampler;
   double excess = 0, sweeps = 0;  ///< of the density, added up since the last call; how many
 };
 

@@ -47,6 +47,14 @@ struct EllipseBatch {
   }
 
   SimdBatch circumradii() const { return a.load(); }
+  template <int k>
+  SimdBatch coordinate() const {
+    return (k == 0 ? x : y).load();
+  }
+  template <int k>
+  SimdBatch axis_component() const {
+    return (k == 0 ? ux : uy).load();
+  }
   /// The squares of the positions, moved by an offset.
   SimdBatch squared_distances(const Vec2& offset) const {
     const SimdBatch dx = x.load() + offset.x(), dy = y.load() + offset.y();

@@ -60,13 +60,6 @@ struct PathProfile {
   }
 };
 
-/// The component along x (`direction` 0) or y (1).
-template <int direction>
-VITREL_INLINE SimdBatch component(const BatchBuffer<simd_width>& x,
-                                  const BatchBuffer<simd_width>& y) {
-  return direction == 0 ? x.load() : y.load();
-}
-
 }  // namespace detail
 
 /// Paths along x (`direction` 0) or y (1).
@@ -76,7 +69,8 @@ class EllipseFreePathBatch {
   using Mask = SimdBatch::Mask;
 
   /// `max_length` > 0 limits the path.
-  EllipseFreePathBatch(const OrientedEllipse& body, double gap, double max_length)
+  EllipseFreePathBatch(const OrientedEllipse& body, const OrientedEllipse* /*bodies*/, double gap,
+                       double max_length)
       : upper_bound_(max_length), tolerance_(0.25 * gap), end_{max_length, FreePath::none, 0} {
     const double enlarged = 1 + gap / body.shape.b;
     const detail::PathProfile<double> mine(body.shape.a, body.shape.b, body.axis[direction],
@@ -97,16 +91,14 @@ class EllipseFreePathBatch {
   /// are `first_id` + lane.
   VITREL_INLINE void add(const EllipseBatch& group, std::uint32_t first_id, const Vec2& offset,
                          const Mask& mask) {
-    using detail::component;
-    const SimdBatch dx = component<direction>(group.x, group.y) + offset[direction];
-    const SimdBatch dy = component<across>(group.x, group.y) + offset[across];
+    const SimdBatch dx = group.coordinate<direction>() + offset[direction];
+    const SimdBatch dy = group.coordinate<across>() + offset[across];
     const SimdBatch a = group.a.load(), reach = a + circumradius_;
     Mask candidates = mask && abs(dy) < reach && dx > -reach && dx < upper_bound_ + reach;
     if (none_of(candidates)) return;
 
-    const detail::PathProfile<SimdBatch> other(a, group.b.load(),
-                                               component<direction>(group.ux, group.uy),
-                                               component<across>(group.ux, group.uy));
+    const detail::PathProfile<SimdBatch> other(a, group.b.load(), group.axis_component<direction>(),
+                                               group.axis_component<across>());
     const SimdBatch t = dy / (height_ + other.height), tt = t * t;
     const SimdBatch past_middle = dx - t * (shear_ + other.shear);
     candidates = candidates && tt < 1. && past_middle > 0.;

@@ -25,25 +25,25 @@
 /// Source: vieillardbaron1972.
 namespace vitrel {
 
-class OverlapBatch {
+class EllipseOverlapBatch {
  public:
   /// Bit k is lane k: these are combined and tested, but never select.
   using Lanes = unsigned;
   static constexpr Lanes all_lanes = (1u << simd_width) - 1;
 
-  /// `axis` is the unit vector along the major axis; margin ≥ 0.
-  OverlapBatch(const Ellipse& shape, const Vec2& axis, double margin)
-      : shape_(shape),
-        axis_(axis),
+  /// margin ≥ 0.
+  EllipseOverlapBatch(const OrientedEllipse& body, const OrientedEllipse* /*bodies*/, double margin)
+      : shape_(body.shape),
+        axis_(body.axis),
         margin_(margin),
-        aa_(shape.a * shape.a),
-        bb_(shape.b * shape.b),
-        aa_minus_bb_(shape.aa_minus_bb()) {}
+        aa_(shape_.a * shape_.a),
+        bb_(shape_.b * shape_.b),
+        aa_minus_bb_(shape_.aa_minus_bb()) {}
 
   /// Whether the body keeps the margin to all ellipses in these lanes; the separations d are `offset` +
   /// their positions. Adds the number of pairs that step 3 decided to `scalar_tests`.
-  VITREL_INLINE bool clear_of(const EllipseBatch& group, const Vec2& offset, Lanes lanes,
-                              std::uint64_t& scalar_tests) const {
+  VITREL_INLINE bool may_be_clear_of(const EllipseBatch& group, const Vec2& offset, Lanes lanes,
+                                     std::uint64_t& scalar_tests) const {
     const SimdBatch dx = group.x.load() + offset.x(), dy = group.y.load() + offset.y();
     const SimdBatch distance_squared = dx * dx + dy * dy;
     const SimdBatch a = group.a.load();
@@ -59,6 +59,8 @@ class OverlapBatch {
     undecided &= ~verdict.certain;
     return !undecided || clear_by_scalar_tests(group, offset, undecided, scalar_tests);
   }
+  /// The answer for ellipses that still wait: none.
+  bool rest_is_clear(std::uint64_t& /*scalar_tests*/) const { return true; }
 
  private:
   // Bounds of the error of Ψ: relative to the sum of its terms, and from the margin, in units of margin/b.

@@ -64,10 +64,10 @@ class EllipsoidFreePathBatch {
   template <class Group>
   VITREL_INLINE void add(const Group& group, std::uint32_t first_id, const Vec3& offset,
                          const Mask& mask) {
-    const SimdBatch d[] = {detail::coordinate<e>(group) + offset[e],
-                           detail::coordinate<u>(group) + offset[u],
-                           detail::coordinate<v>(group) + offset[v]};
-    const SimdBatch reach = detail::radii(group) + circumradius_;
+    const SimdBatch d[] = {group.template coordinate<e>() + offset[e],
+                           group.template coordinate<u>() + offset[u],
+                           group.template coordinate<v>() + offset[v]};
+    const SimdBatch reach = group.circumradii() + circumradius_;
     const SimdBatch chord_squared = reach * reach - d[1] * d[1] - d[2] * d[2];
     const SimdBatch half_chord = sqrt(max(chord_squared, SimdBatch(0)));
     unsigned met =

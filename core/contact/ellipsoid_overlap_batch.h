@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <utility>
 
 #include "core/contact/ellipsoid_gap.h"
-#include "core/contact/simd_batch.h"
+#include "core/contact/sphere_batch.h"
 
 /// @file
 /// Does one ellipsoid keep a margin to all of several others at rest? The overlap test of trial moves in space, in SIMD
@@ -41,50 +40,6 @@ struct OrientedEllipsoid {
   }
 };
 
-/// A batch of ellipsoids at rest, as far as step 1 needs them. An empty lane holds one far away.
-struct EllipsoidBatch {
-  static constexpr double far_away = 1e150;  // its square is finite
-
-  detail::BatchBuffer<simd_width> x, y, z, outer, inner;  ///< radii of circumspheres and inspheres
-
-  EllipsoidBatch() {
-    for (int lane = 0; lane < simd_width; ++lane) clear(lane);
-  }
-  void clear(int lane) {
-    move(lane, Vec3::Constant(far_away));
-    outer[lane] = inner[lane] = 0;
-  }
-  void set(int lane, const OrientedEllipsoid& body, const Vec3& position) {
-    move(lane, position);
-    outer[lane] = body.shape.circumradius();
-    inner[lane] = body.shape.inradius();
-  }
-  void move(int lane, const Vec3& position) {
-    x[lane] = position.x(), y[lane] = position.y(), z[lane] = position.z();
-  }
-  void turn(int /*lane*/, const OrientedEllipsoid& /*body*/) {}  // spheres do not tell
-  void copy(int lane, const EllipsoidBatch& from, int from_lane) {
-    move(lane, from.position(from_lane));
-    outer[lane] = from.outer[from_lane];
-    inner[lane] = from.inner[from_lane];
-  }
-  /// Exchanges the shapes of two lanes; positions stay.
-  void swap_shapes(int lane, EllipsoidBatch& other, int other_lane) {
-    std::swap(outer[lane], other.outer[other_lane]);
-    std::swap(inner[lane], other.inner[other_lane]);
-  }
-
-  SimdBatch circumradii() const { return outer.load(); }
-  /// The squares of the positions, moved by an offset.
-  SimdBatch squared_distances(const Vec3& offset) const {
-    const SimdBatch dx = x.load() + offset.x(), dy = y.load() + offset.y(),
-                    dz = z.load() + offset.z();
-    return dx * dx + dy * dy + dz * dz;
-  }
-
-  Vec3 position(int lane) const { return {x[lane], y[lane], z[lane]}; }
-};
-
 class EllipsoidOverlapBatch {
  public:
   /// Bit k is lane k.
@@ -101,12 +56,14 @@ class EllipsoidOverlapBatch {
         inner_(body.shape.inradius()) {}
 
   /// False if the body is known to be closer than the margin to one of the ellipsoids in these lanes; what is not known
-  /// waits for a full batch. The separations d are `offset` + their positions, and `particle` their numbers among all
+  /// waits for a full batch. The separations d are `offset` + their positions, and group.particle their numbers among all
   /// bodies. Adds the number of pairs that step 3 decided to `scalar_tests`.
-  VITREL_INLINE bool may_be_clear_of(const EllipsoidBatch& group, const std::uint32_t* particle,
-                                     const Vec3& offset, Lanes lanes, std::uint64_t& scalar_tests) {
-    const SimdBatch dx = group.x.load() + offset.x(), dy = group.y.load() + offset.y(),
-                    dz = group.z.load() + offset.z();
+  template <class Group>
+  VITREL_INLINE bool may_be_clear_of(const Group& group, const Vec3& offset, Lanes lanes,
+                                     std::uint64_t& scalar_tests) {
+    const SimdBatch dx = group.template coordinate<0>() + offset.x(),
+                    dy = group.template coordinate<1>() + offset.y(),
+                    dz = group.template coordinate<2>() + offset.z();
     const SimdBatch distance_squared = dx * dx + dy * dy + dz * dz;
     const SimdBatch outer = group.outer.load() + (outer_ + margin_);
     Lanes undecided = lanes & (distance_squared < outer * outer).bits();
@@ -115,7 +72,7 @@ class EllipsoidOverlapBatch {
     if (undecided & (distance_squared < inner * inner).bits()) return false;
     for (; undecided; undecided &= undecided - 1) {
       const int lane = std::countr_zero(undecided);
-      push(particle[lane], {dx[lane], dy[lane], dz[lane]});
+      push(group.particle[lane], {dx[lane], dy[lane], dz[lane]});
       if (pending_ == simd_width && !pending_are_clear(scalar_tests)) return false;
     }
     return true;

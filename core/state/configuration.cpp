@@ -67,6 +67,14 @@ double largest_circumradius(const Configuration<Dim>& configuration) {
 }
 
 template <int Dim>
+double smallest_inradius(const Configuration<Dim>& configuration) {
+  double smallest = configuration.shape.front().inradius();
+  for (const ParticleShape<Dim>& shape : configuration.shape)
+    smallest = std::min(smallest, shape.inradius());
+  return smallest;
+}
+
+template <int Dim>
 std::vector<Vec<Dim>> velocities_after_contact(const Configuration<Dim>& configuration) {
   std::vector<Vec<Dim>> velocities = configuration.velocity;
   for (const Release<Dim>& release : configuration.releases)
@@ -107,6 +115,8 @@ template double packing_fraction(const Configuration2&);
 template double packing_fraction(const Configuration3&);
 template double largest_circumradius(const Configuration2&);
 template double largest_circumradius(const Configuration3&);
+template double smallest_inradius(const Configuration2&);
+template double smallest_inradius(const Configuration3&);
 template std::vector<Vec2> velocities_after_contact(const Configuration2&);
 template std::vector<Vec3> velocities_after_contact(const Configuration3&);
 template Mechanics<2> mechanics(const Configuration2&);

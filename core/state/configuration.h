@@ -105,9 +105,11 @@ bool same_particles(const Configuration<Dim>& one, const Configuration<Dim>& two
 /// Total area (volume) of the particles over that of the box.
 template <int Dim>
 double packing_fraction(const Configuration<Dim>& configuration);
-/// The longest semi-axis of any particle.
+/// The largest circumradius and the smallest inradius of all particles.
 template <int Dim>
 double largest_circumradius(const Configuration<Dim>& configuration);
+template <int Dim>
+double smallest_inradius(const Configuration<Dim>& configuration);
 
 /// Velocities for all sums: particles in contact count with the velocity after the contact.
 template <int Dim>

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/support/free_paths.h"
+#include "tests/support/resting_bodies.h"
 
 namespace vitrel {
 namespace {
@@ -34,28 +34,6 @@ Scene random_scene(Stream& draw, const Class& at, std::size_t count) {
   return random_scene<2>(draw, count, body, [&] { return direction(draw.uniform(-pi, pi)); });
 }
 
-template <template <int> class Batch, int along>
-FreePath path_end(const Scene& scene, double max_length) {
-  Batch<along> paths(OrientedEllipse{scene.moving.shape, direction(scene.moving.pose.angle)}, gap,
-                     max_length);
-  const Vec2 offset(0.25, -0.5);
-  for (std::size_t begin = 0; begin < scene.others.size(); begin += simd_width) {
-    EllipseBatch group;
-    for (std::size_t k = begin; k < std::min(begin + simd_width, scene.others.size()); ++k) {
-      const Placed& other = scene.others[k];
-      group.set(static_cast<int>(k - begin), other.shape, other.pose.position - offset,
-                direction(other.pose.angle));
-    }
-    paths.add(group, static_cast<std::uint32_t>(begin), offset, typename Batch<along>::Mask(true));
-  }
-  return paths.end();
-}
-
-template <template <int> class Batch, int along>
-void check(const Scene& scene, double max_length, FreePathTally& tally) {
-  check_free_path(scene, path_end<Batch, along>(scene, max_length), along, max_length, tally);
-}
-
 class FreePathsOfEllipses : public testing::TestWithParam<Class> {};
 
 TEST_P(FreePathsOfEllipses, EndsAtTheFirstContact) {
@@ -67,9 +45,10 @@ TEST_P(FreePathsOfEllipses, EndsAtTheFirstContact) {
     const Scene scene = random_scene(draw, GetParam(), count);
     const double max_length = scene.moving.shape.a * draw.uniform(0.1, 5);
     if (k % 2 == 0)
-      check<EllipseFreePathBatch, 0>(scene, max_length, tally);
+      check_path<RestingBodies<Ellipse>, 0>(scene, max_length, tally);
     else
-      check<EllipseFreePathBatch, 1>(scene, max_length, tally);
+      check_path<RestingBodies<Ellipse>, 1>(scene, max_length, tally);
+    if (k % 10 == 0) check_path<RestingBodies<PlainEllipse>, 0>(scene, max_length, tally);
     if (HasFatalFailure()) FAIL() << "scene " << k;
   }
   EXPECT_GT(tally.partner, scenes / 5);
@@ -80,9 +59,6 @@ INSTANTIATE_TEST_SUITE_P(Shapes, FreePathsOfEllipses,
                          testing::Values(Class{1, 1}, Class{1, 100}, Class{2, 1}, Class{6, 1},
                                          Class{10, 3}, Class{100, 1}, Class{100, 100}));
 
-template <int along>
-using DiskFreePathBatch = RoundFreePathBatch<along>;
-
 TEST(RoundFreePathBatch, EndsAtTheFirstContact) {
   Stream draw(72, Purpose::tests);
   FreePathTally tally;
@@ -90,8 +66,8 @@ TEST(RoundFreePathBatch, EndsAtTheFirstContact) {
     const std::size_t count = 1 + draw.below(12);
     const Scene scene = random_scene(draw, {1, 10}, count);
     const double max_length = scene.moving.shape.a * draw.uniform(0.1, 5);
-    check<DiskFreePathBatch, 0>(scene, max_length, tally);
-    check<DiskFreePathBatch, 1>(scene, max_length, tally);
+    check_path<RoundBodies<Ellipse>, 0>(scene, max_length, tally);
+    check_path<RoundBodies<Ellipse>, 1>(scene, max_length, tally);
     if (HasFatalFailure()) FAIL() << "scene " << k;
   }
   EXPECT_GT(tally.partner, 2000);
@@ -103,9 +79,11 @@ TEST(EllipseFreePathBatch, MeetsCrossedEllipsesAtTheKnownDistance) {
   const Ellipse shape{2, 1};
   const double height = std::sqrt(5);
   const Scene scene{{shape, {Vec2::Zero(), 0}}, {{shape, {Vec2(10, height), 0.5 * pi}}}};
-  const FreePath end = path_end<EllipseFreePathBatch, 0>(scene, 20);
-  EXPECT_EQ(end.partner, 0u);
-  EXPECT_NEAR(end.length, 10 - height, 10 * gap);
+  for (const FreePath& end : {path_end<RestingBodies<Ellipse>, 0>(scene, 20),
+                              path_end<RestingBodies<PlainEllipse>, 0>(scene, 20)}) {
+    EXPECT_EQ(end.partner, 0u);
+    EXPECT_NEAR(end.length, 10 - height, 10 * gap);
+  }
 }
 
 // An ellipse closer than the gap is touched at once if it is ahead, and ignored if it is behind or masked out.
@@ -114,11 +92,13 @@ TEST(EllipseFreePathBatch, TouchesAtOnceWhatIsAhead) {
   for (const double side : {1., -1.}) {
     const Vec2 place = side * (2 + 0.5 * gap) * direction(0.3 + 0.5 * pi);
     const Scene scene{{shape, {Vec2::Zero(), 0.3}}, {{shape, {place, 0.3}}}};
-    const FreePath end = path_end<EllipseFreePathBatch, 1>(scene, 1);
-    EXPECT_EQ(end.partner, side > 0 ? 0 : FreePath::none);
-    EXPECT_EQ(end.length, side > 0 ? 0 : 1);
+    for (const FreePath& end : {path_end<RestingBodies<Ellipse>, 1>(scene, 1),
+                                path_end<RestingBodies<PlainEllipse>, 1>(scene, 1)}) {
+      EXPECT_EQ(end.partner, side > 0 ? 0 : FreePath::none);
+      EXPECT_EQ(end.length, side > 0 ? 0 : 1);
+    }
   }
-  EllipseFreePathBatch<0> paths({shape, Vec2(1, 0)}, gap, 1);
+  EllipseFreePathBatch<0> paths({shape, Vec2(1, 0)}, nullptr, gap, 1);
   EllipseBatch group;
   group.set(2, shape, Vec2(4.5, 0), Vec2(1, 0));
   paths.add(group, 0, Vec2::Zero(), detail::all_lanes_but(2));

@@ -14,6 +14,7 @@
 #include "core/random/stream.h"
 #include "core/tolerances.h"
 #include "tests/support/posed_pair.h"
+#include "tests/support/resting_bodies.h"
 
 namespace vitrel {
 namespace {
@@ -72,12 +73,15 @@ bool disjoint(const PosedPair& pair) {
       .disjoint_or_touching();
 }
 
+template <class Shape>
 bool looks_clear(const PosedPair& pair, int lane, std::uint64_t& scalar_tests) {
-  EllipseBatch group;
-  const Vec2 offset(0.3, -0.2);
-  group.set(lane, pair.two, pair.d - offset, direction(pair.angle2));
-  return OverlapBatch(pair.one, direction(pair.angle1), margin(pair))
-      .clear_of(group, offset, OverlapBatch::all_lanes, scalar_tests);
+  using Bodies = RestingBodies<Shape>;
+  return all_look_clear<Bodies>(Bodies::body(Shape(pair.one), pair.angle1),
+                                {Bodies::body(Shape(pair.two), pair.angle2)}, std::vector{pair.d},
+                                margin(pair), lane, scalar_tests);
+}
+bool looks_clear(const PosedPair& pair, int lane, std::uint64_t& scalar_tests) {
+  return looks_clear<Ellipse>(pair, lane, scalar_tests);
 }
 
 /// What the coordinates' rounding may do to a gap.
@@ -107,7 +111,9 @@ TEST_P(OverlapBatchOfEllipses, IsRightAboutEveryPair) {
     } else {
       ASSERT_LT(gap, margin(pair) + rounding(pair)) << pair;
     }
-    if (looks_clear(pair.swapped(), k % simd_width, scalar_tests) != answer) {
+    std::uint64_t uncounted = 0;
+    if (looks_clear(pair.swapped(), k % simd_width, scalar_tests) != answer ||
+        looks_clear<PlainEllipse>(pair, k % simd_width, uncounted) != answer) {
       ASSERT_NEAR(gap, margin(pair), rounding(pair)) << pair;
     }
   }
@@ -126,13 +132,13 @@ INSTANTIATE_TEST_SUITE_P(Shapes, OverlapBatchOfEllipses,
                                          Class{1000, 1}));
 
 // The same pair in another lane, beside others and beside nobody.
-TEST(OverlapBatch, AnswersOfAGroupAreThoseOfItsPairs) {
+TEST(EllipseOverlapBatch, AnswersOfAGroupAreThoseOfItsPairs) {
   Stream draw(62, Purpose::tests);
   int clear = 0;
   constexpr int groups = 20'000;
   for (int k = 0; k < groups; ++k) {
     const PosedPair first = random_pair(draw, {6, 3});
-    const OverlapBatch batch(first.one, direction(first.angle1), 1e-12);
+    const EllipseOverlapBatch batch({first.one, direction(first.angle1)}, nullptr, 1e-12);
     EllipseBatch group;
     bool each_clear = true;
     std::uint64_t alone_in_group = 0, scalar_tests = 0;
@@ -145,10 +151,11 @@ TEST(OverlapBatch, AnswersOfAGroupAreThoseOfItsPairs) {
       EllipseBatch single;
       single.set((lane + k) % simd_width, other.two, place, direction(other.angle2));
       each_clear =
-          each_clear && batch.clear_of(single, Vec2::Zero(), OverlapBatch::all_lanes, scalar_tests);
+          each_clear &&
+          batch.may_be_clear_of(single, Vec2::Zero(), EllipseOverlapBatch::all_lanes, scalar_tests);
     }
     const bool answer =
-        batch.clear_of(group, Vec2::Zero(), OverlapBatch::all_lanes, alone_in_group);
+        batch.may_be_clear_of(group, Vec2::Zero(), EllipseOverlapBatch::all_lanes, alone_in_group);
     ASSERT_EQ(answer, each_clear);
     if (answer) {
       ASSERT_EQ(alone_in_group, scalar_tests);
@@ -161,7 +168,7 @@ TEST(OverlapBatch, AnswersOfAGroupAreThoseOfItsPairs) {
 
 // Nearly all pairs at random places within the circumcircles are decided in batches: what the speed
 // rests on.
-TEST(OverlapBatch, FewPairsAreLeftToBeDecidedAlone) {
+TEST(EllipseOverlapBatch, FewPairsAreLeftToBeDecidedAlone) {
   for (const double kappa : {1.5, 2., 6., 100.}) {
     Stream draw(63, Purpose::tests);
     const Ellipse shape{std::sqrt(kappa), 1 / std::sqrt(kappa)};
@@ -178,7 +185,7 @@ TEST(OverlapBatch, FewPairsAreLeftToBeDecidedAlone) {
 }
 
 // Two disks are settled by their circles.
-TEST(OverlapBatch, DisksAreNeverLeft) {
+TEST(EllipseOverlapBatch, DisksAreNeverLeft) {
   Stream draw(64, Purpose::tests);
   std::uint64_t scalar_tests = 0;
   for (int k = 0; k < 10'000; ++k) {

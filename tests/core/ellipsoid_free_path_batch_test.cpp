@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/support/free_paths.h"
+#include "tests/support/resting_bodies.h"
 #include "tests/support/solids.h"
 
 namespace vitrel {
@@ -18,10 +18,6 @@ using Class = FreePathClass;
 using Placed = PlacedBody<3>;
 using Scene = FreePathScene<3>;
 
-struct Group : EllipsoidBatch {
-  std::uint32_t particle[simd_width] = {};
-};
-
 /// One body in eight is aligned with the box.
 Scene random_scene(Stream& draw, const Class& at, std::size_t count) {
   const auto body = [&]() -> Placed {
@@ -30,30 +26,6 @@ Scene random_scene(Stream& draw, const Class& at, std::size_t count) {
             {Vec3::Zero(), draw.below(8) == 0 ? Quaternion::Identity() : random_orientation(draw)}};
   };
   return random_scene<3>(draw, count, body, [&] { return random_direction(draw); });
-}
-
-template <int along>
-FreePath path_end(const Scene& scene, double max_length) {
-  std::vector<OrientedEllipsoid> bodies;
-  for (const Placed& other : scene.others) bodies.emplace_back(other.shape, other.pose.orientation);
-  const OrientedEllipsoid moving(scene.moving.shape, scene.moving.pose.orientation);
-  EllipsoidFreePathBatch<along> paths(moving, bodies.data(), gap, max_length);
-  const Vec3 offset(0.25, -0.5, 0.125);
-  for (std::size_t begin = 0; begin < bodies.size(); begin += simd_width) {
-    Group group;
-    for (std::size_t k = begin; k < std::min(begin + simd_width, bodies.size()); ++k) {
-      const int lane = static_cast<int>(k - begin);
-      group.set(lane, bodies[k], scene.others[k].pose.position - offset);
-      group.particle[lane] = static_cast<std::uint32_t>(k);
-    }
-    paths.add(group, static_cast<std::uint32_t>(begin), offset, SimdBatch::Mask(true));
-  }
-  return paths.end();
-}
-
-template <int along>
-void check(const Scene& scene, double max_length, FreePathTally& tally) {
-  check_free_path(scene, path_end<along>(scene, max_length), along, max_length, tally);
 }
 
 class FreePathsOfEllipsoids : public testing::TestWithParam<Class> {};
@@ -67,11 +39,12 @@ TEST_P(FreePathsOfEllipsoids, EndAtTheFirstContact) {
     const Scene scene = random_scene(draw, GetParam(), count);
     const double max_length = scene.moving.shape.circumradius() * draw.uniform(0.1, 5);
     if (k % 3 == 0)
-      check<0>(scene, max_length, tally);
+      check_path<RestingBodies<Ellipsoid>, 0>(scene, max_length, tally);
     else if (k % 3 == 1)
-      check<1>(scene, max_length, tally);
+      check_path<RestingBodies<Ellipsoid>, 1>(scene, max_length, tally);
     else
-      check<2>(scene, max_length, tally);
+      check_path<RestingBodies<Ellipsoid>, 2>(scene, max_length, tally);
+    if (k % 10 == 0) check_path<RestingBodies<PlainEllipsoid>, 1>(scene, max_length, tally);
     if (HasFatalFailure()) FAIL() << "scene " << k;
   }
   EXPECT_GT(tally.partner, scenes / 5);
@@ -87,9 +60,11 @@ TEST(EllipsoidFreePathBatch, MeetsAlignedBodiesAtTheKnownDistance) {
   const Ellipsoid shape{Vec3(3, 1.5, 0.5)};
   const Quaternion aligned = Quaternion::Identity();
   const Scene scene{{shape, {Vec3::Zero(), aligned}}, {{shape, {Vec3(2.4, 10, -0.6), aligned}}}};
-  const FreePath end = path_end<1>(scene, 20);
-  EXPECT_EQ(end.partner, 0u);
-  EXPECT_NEAR(end.length, 10 - 3 * std::sqrt(1 - 0.4 * 0.4 - 0.6 * 0.6), 10 * gap);
+  for (const FreePath& end : {path_end<RestingBodies<Ellipsoid>, 1>(scene, 20),
+                              path_end<RestingBodies<PlainEllipsoid>, 1>(scene, 20)}) {
+    EXPECT_EQ(end.partner, 0u);
+    EXPECT_NEAR(end.length, 10 - 3 * std::sqrt(1 - 0.4 * 0.4 - 0.6 * 0.6), 10 * gap);
+  }
 }
 
 // An ellipsoid closer than the gap is touched at once if it is ahead, and ignored if it is behind or masked out.
@@ -99,13 +74,15 @@ TEST(EllipsoidFreePathBatch, TouchesAtOnceWhatIsAhead) {
   for (const double side : {1., -1.}) {
     const Vec3 place = side * (1 + 0.5 * gap) * (turned * Vec3::UnitZ());
     const Scene scene{{shape, {Vec3::Zero(), turned}}, {{shape, {place, turned}}}};
-    const FreePath end = path_end<2>(scene, 1);
-    EXPECT_EQ(end.partner, side > 0 ? 0 : FreePath::none);
-    EXPECT_EQ(end.length, side > 0 ? 0 : 1);
+    for (const FreePath& end : {path_end<RestingBodies<Ellipsoid>, 2>(scene, 1),
+                                path_end<RestingBodies<PlainEllipsoid>, 2>(scene, 1)}) {
+      EXPECT_EQ(end.partner, side > 0 ? 0 : FreePath::none);
+      EXPECT_EQ(end.length, side > 0 ? 0 : 1);
+    }
   }
   const OrientedEllipsoid body(shape, Quaternion::Identity());
   EllipsoidFreePathBatch<0> paths(body, &body, gap, 1);
-  Group group;
+  NumberedBatch<SphereBatch<3>> group;
   group.set(2, body, Vec3(4.5, 0, 0));
   paths.add(group, 0, Vec3::Zero(), detail::all_lanes_but(2));
   EXPECT_EQ(paths.end().partner, FreePath::none);

@@ -11,6 +11,7 @@
 #include "core/contact/perram_wertheim.h"
 #include "core/tolerances.h"
 #include "tests/support/posed_solids.h"
+#include "tests/support/resting_bodies.h"
 #include "tests/support/solids.h"
 
 namespace vitrel {
@@ -54,27 +55,15 @@ bool disjoint(const PosedSolids& pair) {
       .disjoint_or_touching();
 }
 
-/// All of these against one body, spread over groups.
-bool looks_clear(const OrientedEllipsoid& one, const std::vector<OrientedEllipsoid>& others,
-                 const std::vector<Vec3>& d, double margin, int first_lane,
-                 std::uint64_t& scalar_tests) {
-  const Vec3 offset(0.3, -0.2, 0.1);
-  EllipsoidOverlapBatch batch(one, others.data(), margin);
-  for (std::size_t k = 0; k < others.size(); ++k) {
-    EllipsoidBatch group;
-    std::uint32_t particle[simd_width] = {};
-    const int lane = (first_lane + static_cast<int>(k)) % simd_width;
-    group.set(lane, others[k], d[k] - offset);
-    particle[lane] = static_cast<std::uint32_t>(k);
-    if (!batch.may_be_clear_of(group, particle, offset, EllipsoidOverlapBatch::all_lanes,
-                               scalar_tests))
-      return false;
-  }
-  return batch.rest_is_clear(scalar_tests);
+template <class Shape>
+bool looks_clear(const PosedSolids& pair, int lane, std::uint64_t& scalar_tests) {
+  using Bodies = RestingBodies<Shape>;
+  return all_look_clear<Bodies>(Bodies::body(Shape(pair.one), pair.turn1),
+                                {Bodies::body(Shape(pair.two), pair.turn2)}, std::vector{pair.d},
+                                margin(pair), lane, scalar_tests);
 }
 bool looks_clear(const PosedSolids& pair, int lane, std::uint64_t& scalar_tests) {
-  return looks_clear({pair.one, pair.turn1}, {{pair.two, pair.turn2}}, {pair.d}, margin(pair), lane,
-                     scalar_tests);
+  return looks_clear<Ellipsoid>(pair, lane, scalar_tests);
 }
 
 /// What the coordinates' rounding may do to a gap.
@@ -103,7 +92,8 @@ TEST_P(EllipsoidOverlapBatchOf, IsRightAboutEveryPair) {
     } else {
       ASSERT_LT(gap, margin(pair) + rounding(pair)) << pair;
     }
-    if (looks_clear(pair.swapped(), k % simd_width, scalar_tests) != answer) {
+    if (looks_clear(pair.swapped(), k % simd_width, scalar_tests) != answer ||
+        looks_clear<PlainEllipsoid>(pair, k % simd_width, scalar_tests) != answer) {
       ASSERT_NEAR(gap, margin(pair), rounding(pair)) << pair;
     }
   }
@@ -132,11 +122,12 @@ TEST(EllipsoidOverlapBatch, AnswersForManyAreThoseOfTheirPairs) {
       const PosedSolids other = random_pair(draw, {6, 3});
       others.emplace_back(other.two, other.turn2);
       places.push_back(1.5 * other.d);
-      each_clear = each_clear && looks_clear({first.one, first.turn1}, {others.back()},
-                                             {places.back()}, 1e-12, m, scalar_tests);
+      each_clear = each_clear && all_look_clear<RestingBodies<Ellipsoid>>(
+                                     {first.one, first.turn1}, {others.back()},
+                                     std::vector{places.back()}, 1e-12, m, scalar_tests);
     }
-    const bool answer =
-        looks_clear({first.one, first.turn1}, others, places, 1e-12, k, scalar_tests);
+    const bool answer = all_look_clear<RestingBodies<Ellipsoid>>({first.one, first.turn1}, others,
+                                                                 places, 1e-12, k, scalar_tests);
     ASSERT_EQ(answer, each_clear);
     clear += answer;
   }

@@ -55,8 +55,8 @@ TEST(PressureSampler, KeepsTheStateHardInBoxesOfAnyShape) {
       EXPECT_GT(densest, 0.4);
       EXPECT_GT(sampler.box().accepted, 20u);
       const double change_of_aspect = c.box.lengths().y() / c.box.lengths().x() / aspect;
-      EXPECT_LT(change_of_aspect, PressureSampler<2>::max_aspect_change);
-      EXPECT_GT(change_of_aspect, 1 / PressureSampler<2>::max_aspect_change);
+      EXPECT_LT(change_of_aspect, PressureSampler<Ellipse>::max_aspect_change);
+      EXPECT_GT(change_of_aspect, 1 / PressureSampler<Ellipse>::max_aspect_change);
       if (change == BoxChange::isotropic) {
         EXPECT_NEAR(change_of_aspect, 1, 1e-12);
       }

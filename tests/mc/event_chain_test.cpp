@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Mixtures, EventChainOf, testing::ValuesIn(mixtures()));
 
 TEST(EventChain, SameSeedSameStateAndSweepsAreNumbered) {
   Configuration2 one = inserted_fluid(50, 2, 0.3), two = one;
-  const EventChain<2>::Plan plan{7, 12, 40, 0.4};
+  const EventChain<Ellipse>::Plan plan{7, 12, 40, 0.4};
   EventChain whole(one, {}, 9);
   whole.set_plan(plan);
   for (int sweep = 0; sweep < 20; ++sweep) whole.sweep();

@@ -214,9 +214,9 @@ Configuration<Dim> polydisperse(double aspect_ratio, std::size_t particles, doub
 }
 
 /// The same chain in single steps, which each test the two that exchange.
-template <int Dim>
-void run_in_single_steps(HardParticles<Dim>& particles, std::size_t rank, std::size_t steps) {
-  const Configuration<Dim>& c = particles.configuration();
+template <class Shape>
+void run_in_single_steps(HardParticles<Shape>& particles, std::size_t rank, std::size_t steps) {
+  const auto& c = particles.configuration();
   std::vector<std::size_t> by_rank(c.size());
   std::iota(by_rank.begin(), by_rank.end(), std::size_t{0});
   std::ranges::stable_sort(by_rank, {}, [&](std::size_t i) { return c.shape[i].volume(); });

@@ -193,7 +193,7 @@ struct FewSolids {
   const char* name;
   Vec3 semi_axes[4];
   Vec3 box;
-  EventChain<3>::Plan plan;
+  EventChain<Ellipsoid>::Plan plan;
 };
 void PrintTo(const FewSolids& solids, std::ostream* out) {
   *out << solids.name;

@@ -149,7 +149,7 @@ TEST(Sampler, RoundParticlesAreNotTurned) {
 /// The same statistics of hard states drawn one after the other as of states drawn independently: all
 /// particles at once at random, again until the state is hard. 4 standard errors of the difference, a false
 /// alarm of 6e-5 each.
-void expect_hard_states_equally(Configuration2& c, Sampler<2>& sampler,
+void expect_hard_states_equally(Configuration2& c, Sampler<Ellipse>& sampler,
                                 const std::array<std::vector<double>, 3>& expected) {
   std::array<std::vector<double>, 3> found;
   sampler.set_steps(4, 1);

@@ -5,21 +5,23 @@
 #include <map>
 #include <set>
 
+#include "core/contact/ellipse_batch.h"
 #include "core/random/stream.h"
 
 namespace vitrel {
 namespace {
 
-using Index = SimdCells<2>::Index;
+using Cells = SimdCells<EllipseBatch>;
+using Index = Cells::Index;
 
 /// Particles of a cell, read group by group; every one where its place says, and no lane besides.
-std::set<Index> particles_in(SimdCells<2>& cells, std::size_t cell) {
+std::set<Index> particles_in(Cells& cells, std::size_t cell) {
   std::set<Index> found;
   std::size_t at = cell;
-  while (at != SimdCells<2>::none) {
-    const SimdCells<2>::Group& group = cells[at];
+  while (at != Cells::none) {
+    const Cells::Group& group = cells[at];
     EXPECT_EQ(group.cell, cell);
-    if (group.next != SimdCells<2>::none) {
+    if (group.next != Cells::none) {
       EXPECT_EQ(group.count, simd_width);
     }
     for (int lane = 0; lane < simd_width; ++lane) {
@@ -45,11 +47,11 @@ TEST(SimdCells, KeepTrackOfEverybody) {
   constexpr std::size_t cells_of_domain = 5;
   const std::vector<std::size_t> begin = {0, 23, 41};
   const std::size_t n = begin.back();
-  SimdCells<2> cells;
+  Cells cells;
   cells.resize(2 * cells_of_domain, n);
   for (std::size_t cell = 0; cell < 2 * cells_of_domain; ++cell) cells.clear(cell);
-  std::vector<SimdCells<2>::FreeList> free_list = {cells.free_groups(begin[0], begin[1]),
-                                                   cells.free_groups(begin[1], begin[2])};
+  std::vector<Cells::FreeList> free_list = {cells.free_groups(begin[0], begin[1]),
+                                            cells.free_groups(begin[1], begin[2])};
   std::vector<std::size_t> cell_of(n);
   Stream draw(91, Purpose::tests);
   std::size_t crowded = 0;
@@ -80,16 +82,16 @@ TEST(SimdCells, KeepTrackOfEverybody) {
 }
 
 TEST(SimdCells, ExchangePlaces) {
-  SimdCells<2> cells;
+  Cells cells;
   cells.resize(8, 40);
   for (std::size_t cell = 0; cell < 8; ++cell) cells.clear(cell);
-  SimdCells<2>::FreeList free_list = cells.free_groups(0, 40);
+  Cells::FreeList free_list = cells.free_groups(0, 40);
   cells.insert(0, 0, OrientedEllipse{{3, 1}, Vec2(1, 0)}, Vec2(1, 2), free_list);
   cells.insert(1, 1, OrientedEllipse{{2, 0.5}, Vec2(0, 1)}, Vec2(5, 6), free_list);
   cells.exchange(0, 1);
   const auto expect_at = [&cells](std::size_t i, std::size_t cell, const Ellipse& shape,
                                   const Vec2& position, const Vec2& axis) {
-    const SimdCells<2>::Group& group = cells.group_of(i);
+    const Cells::Group& group = cells.group_of(i);
     const int lane = cells.lane_of(i);
     EXPECT_EQ(group.cell, cell);
     EXPECT_EQ(group.particle[lane], i);

@@ -21,7 +21,7 @@ struct ChainSampling {
 
 template <int Dim>
 ChainPressures chain_pressures(Configuration<Dim>& c, const ChainSampling& sampling) {
-  EventChain<Dim> chains(c, {}, 11);
+  EventChain<ParticleShape<Dim>> chains(c, {}, 11);
   for (int sweep = 0; sweep < sampling.tuning; ++sweep) {
     chains.sweep();
     chains.tune();

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "core/contact/oriented_body.h"
+#include "core/contact/sphere_batch.h"
+
+namespace vitrel {
+
+/// Does one body of any shape keep a margin to all of several others at rest? Circumspheres a margin apart prove the pair
+/// separated, overlapping inspheres prove an overlap, and separated() (oriented_body.h) decides all others, one by one.
+/// Ellipses (ellipse_overlap_batch.h) and ellipsoids (ellipsoid_overlap_batch.h) have faster tests with the same answers.
+template <class Shape>
+class PairOverlaps {
+ public:
+  static constexpr int Dim = Shape::dimension;
+  using Body = OrientedBody<Shape>;
+  /// Bit k is lane k.
+  using Lanes = unsigned;
+
+  /// `bodies` are all particles; margin ≥ 0. Both must outlive the test.
+  PairOverlaps(const Body& body, const Body* bodies, double margin)
+      : body_(body), bodies_(bodies), margin_(margin) {}
+
+  /// False if the body is known to be closer than the margin to one of those in these lanes. The separations d are
+  /// `offset` + their positions, and group.particle their numbers among all bodies. Adds the number of pairs that
+  /// separated() decided to `scalar_tests`.
+  template <class Group>
+  bool may_be_clear_of(const Group& group, const Vec<Dim>& offset, Lanes lanes,
+                       std::uint64_t& scalar_tests) const {
+    const SimdBatch square = group.squared_distances(offset);
+    const SimdBatch outer = group.circumradii() + (body_.shape.circumradius() + margin_);
+    Lanes undecided = lanes & (square < outer * outer).bits();
+    const SimdBatch inner = group.inner.load() + body_.shape.inradius();
+    if (undecided & (square < inner * inner).bits()) return false;
+    for (; undecided; undecided &= undecided - 1) {
+      const int lane = std::countr_zero(undecided);
+      ++scalar_tests;
+      if (!separated(body_, bodies_[group.particle[lane]], group.position(lane) + offset, margin_))
+        return false;
+    }
+    return true;
+  }
+
+  /// The answer for bodies that still wait: none.
+  bool rest_is_clear(std::uint64_t& /*scalar_tests*/) const { return true; }
+
+ private:
+  const Body& body_;
+  const Body* bodies_;
+  double margin_;
+};
+
+}  // namespace vitrel
