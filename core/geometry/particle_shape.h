@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <type_traits>
 
 #include "core/geometry/ellipse.h"
@@ -22,6 +23,24 @@ namespace vitrel {
 /// The shape of any particle of a configuration.
 template <int Dim>
 using ParticleShape = std::conditional_t<Dim == 2, Ellipse, Ellipsoid>;
+
+/// The shape with these half lengths along its own axes, if there is one: they are finite and above 0, in the plane the
+/// longer first.
+template <int Dim>
+std::optional<ParticleShape<Dim>> shape_of(const Vec<Dim>& half_lengths) {
+  if (!(half_lengths.allFinite() && half_lengths.minCoeff() > 0)) return std::nullopt;
+  if constexpr (Dim == 2) {
+    if (half_lengths[0] < half_lengths[1]) return std::nullopt;
+    return Ellipse{half_lengths[0], half_lengths[1]};
+  } else {
+    return Ellipsoid{half_lengths};
+  }
+}
+/// What `shape_of` asks of half lengths, as messages say it.
+template <int Dim>
+constexpr const char* half_lengths_rule() {
+  return Dim == 2 ? "a ≥ b > 0" : "three semi-axes above 0";
+}
 
 /// The disk or sphere of this radius.
 template <int Dim>

@@ -269,9 +269,8 @@ class TrajectoryReader {
   void read_shapes();
   std::optional<int> stated_dimension() const;
   void require_size(std::size_t i, double longest, double shortest) const;
-  void set_shapes(Configuration2& fixed, const std::vector<double>& values,
-                  const h5::Shape& shape) const;
-  void set_shapes(Configuration3& fixed, const std::vector<double>& values,
+  template <int Dim>
+  void set_shapes(Configuration<Dim>& fixed, const std::vector<double>& values,
                   const h5::Shape& shape) const;
   template <int Dim>
   void read_masses_and_species(Configuration<Dim>& fixed) const;

@@ -141,27 +141,20 @@ void TrajectoryReader::require_size(std::size_t i, double longest, double shorte
         i, longest / shortest, max_aspect));
 }
 
-void TrajectoryReader::set_shapes(Configuration2& fixed, const std::vector<double>& values,
+template <int Dim>
+void TrajectoryReader::set_shapes(Configuration<Dim>& fixed, const std::vector<double>& values,
                                   const h5::Shape& shape) const {
   fixed.resize(shape[0]);
   for (std::size_t i = 0; i < shape[0]; ++i) {
-    const double a = values[shape[1] * i], b = values[shape[1] * i + 1];
-    if (!(std::isfinite(a) && a >= b && b > 0))
-      fail("the semi-axes of particle " + std::to_string(i) + " should be a ≥ b > 0");
-    require_size(i, a, b);
-    fixed.shape[i] = {a, b};
-  }
-}
-
-void TrajectoryReader::set_shapes(Configuration3& fixed, const std::vector<double>& values,
-                                  const h5::Shape& shape) const {
-  fixed.resize(shape[0]);
-  for (std::size_t i = 0; i < shape[0]; ++i) {
-    const Vec3 axes = shape[1] == 3 ? Vec3(&values[3 * i]) : Vec3(Vec3::Zero());
-    if (!(axes.allFinite() && axes.minCoeff() > 0))
-      fail("particle " + std::to_string(i) + " should have three semi-axes above 0");
-    require_size(i, axes.maxCoeff(), axes.minCoeff());
-    fixed.shape[i] = {axes};
+    Vec<Dim> half_lengths = Vec<Dim>::Zero();
+    for (std::size_t k = 0; k < std::min<std::size_t>(Dim, shape[1]); ++k)
+      half_lengths[static_cast<int>(k)] = values[shape[1] * i + k];
+    const auto found = shape_of<Dim>(half_lengths);
+    if (!found)
+      fail(fmt::format("particle {} has the semi-axes {}, but should have {}", i,
+                       fmt::join(half_lengths, ", "), half_lengths_rule<Dim>()));
+    require_size(i, found->circumradius(), found->inradius());
+    fixed.shape[i] = *found;
   }
 }
 

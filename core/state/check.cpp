@@ -25,24 +25,28 @@ std::string within_boxes() {
   return std::to_string(static_cast<int>(tolerance::max_box_lengths)) + " box lengths";
 }
 
-void validate_body(const Configuration2& configuration, std::size_t i, const std::string& who) {
-  const ParticleShape<2>& shape = configuration.shape[i];
+void validate_orientation(const Configuration2& configuration, std::size_t i,
+                          const std::string& who) {
   if (!std::isfinite(configuration.angle[i]))
     throw InvariantError(who + ": its angle must be finite");
-  if (!(shape.b > 0 && shape.a >= shape.b &&
-        shape.a <= tolerance::max_box_lengths * configuration.box.lengths().minCoeff()))
-    throw InvariantError(who + ": its semi-axes must obey b > 0 and b ≤ a ≤ " + within_boxes());
 }
 
-void validate_body(const Configuration3& configuration, std::size_t i, const std::string& who) {
-  const Vec3& semi_axes = configuration.shape[i].semi_axes;
+void validate_orientation(const Configuration3& configuration, std::size_t i,
+                          const std::string& who) {
   constexpr double rounding = 1e-9;
   if (!(std::abs(configuration.orientation[i].norm() - 1) <= rounding))
     throw InvariantError(who + ": its orientation must be a quaternion of norm 1");
-  if (!((semi_axes.array() > 0).all() &&
-        semi_axes.maxCoeff() <=
+}
+
+template <int Dim>
+void validate_body(const Configuration<Dim>& configuration, std::size_t i, const std::string& who) {
+  validate_orientation(configuration, i, who);
+  const ParticleShape<Dim>& shape = configuration.shape[i];
+  if (!(shape_of<Dim>(shape.half_lengths()) &&
+        shape.circumradius() <=
             tolerance::max_box_lengths * configuration.box.lengths().minCoeff()))
-    throw InvariantError(who + ": its semi-axes must be above 0 and at most " + within_boxes());
+    throw InvariantError(who + ": it must have " + half_lengths_rule<Dim>() + ", of at most " +
+                         within_boxes());
 }
 
 template <int Dim>

@@ -187,7 +187,7 @@ TEST(OwnStates, AFileIsRefusedInItsOwnTerms) {
           "a.csv: frame 0: has no angles, but particle 0 is not round");
   refused("a.csv", "x,y,angle,a,b\n0,0,0,1,0.5\n", "a.csv: frame 0: has no box");
   refused("a.csv", header + "0,0,0,1,0,6,6\n",
-          "a.csv: frame 0: particle 0 has the semi-axes 1 and 0, but should have a ≥ b > 0");
+          "a.csv: frame 0: particle 0 has the semi-axes 1, 0, but should have a ≥ b > 0");
   for (const auto& [pbc, direction] : {std::pair("F F F", "x"), {"f t t", "x"}, {"1 0 1", "y"}})
     refused(
         "a.xyz",

@@ -19,7 +19,7 @@ namespace {
 
 /// The semi-axes of a species whose particles are all alike.
 template <int Dim>
-Vec3 semi_axes_of(Species species) {
+Vec3 half_lengths_of(Species species) {
   species.fraction = 1;
   constexpr double any = 0.1;
   return half_lengths_in_space(
@@ -89,7 +89,7 @@ std::vector<KnownSpecies> known_species(const Parameters& parameters) {
     KnownSpecies& one = known.emplace_back(KnownSpecies{species.name});
     one.mass = species.mass;
     if (species.has_one_shape())
-      one.semi_axes = is_plane ? semi_axes_of<2>(species) : semi_axes_of<3>(species);
+      one.half_lengths = is_plane ? half_lengths_of<2>(species) : half_lengths_of<3>(species);
   }
   return known;
 }
@@ -99,11 +99,11 @@ void add_imported(std::vector<KnownSpecies>& known, const ImportOptions& import)
   for (const ImportOptions::Kind& kind : import.species) {
     auto one = std::ranges::find(known, kind.name, &KnownSpecies::name);
     if (one == known.end()) one = known.insert(known.end(), KnownSpecies{kind.name});
-    if (kind.diameter) one->semi_axes = Vec3::Constant(0.5 * *kind.diameter / import.length_unit);
+    if (kind.diameter) one->half_lengths = Vec3::Constant(0.5 * *kind.diameter / import.length_unit);
     if (kind.semi_axes) {
-      one->semi_axes = Vec3(Vec3::Zero());
+      one->half_lengths = Vec3(Vec3::Zero());
       for (std::size_t k = 0; k < kind.semi_axes->size(); ++k)
-        (*one->semi_axes)[static_cast<int>(k)] = (*kind.semi_axes)[k] / import.length_unit;
+        (*one->half_lengths)[static_cast<int>(k)] = (*kind.semi_axes)[k] / import.length_unit;
     }
     if (kind.mass) one->mass = kind.mass;
   }

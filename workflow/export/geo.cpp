@@ -165,7 +165,7 @@ std::string coordinates(const Packing& packing, const Slices& slices, int k) {
 
 std::string particle(const Packing& packing, const Slices& slices) {
   const std::size_t i = slices.begin->particle;
-  const Vec3& axes = packing.configuration.shape[i].semi_axes;
+  const Vec3& axes = packing.configuration.shape[i].half_lengths();
   const Eigen::AngleAxisd turn(packing.configuration.orientation[i]);
   return fmt::format(
       "particle = {}; cut = {};\n{}\n{}\n{}\na = {}; b = {}; c = {}; ux = {}; uy = {}; uz = {}; "
@@ -176,16 +176,9 @@ std::string particle(const Packing& packing, const Slices& slices) {
       turn.axis().x(), turn.axis().y(), turn.axis().z(), turn.angle());
 }
 
-double shortest_semi_axis(const Configuration3& configuration) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const Ellipsoid& shape : configuration.shape)
-    shortest = std::min(shortest, shape.inradius());
-  return shortest;
-}
-
 std::string head(const Configuration3& configuration, const Vec3& translation) {
   const Vec3 half = 0.5 * configuration.box.lengths();
-  const double shortest = shortest_semi_axis(configuration);
+  const double shortest = smallest_inradius(configuration);
   return fmt::format(
       "// One period of a packing of {} ellipsoids, by vitrel.\n"
       "// Coordinates are those of the packing less ({}, {}, {}), so that no body grazes the box.\n"

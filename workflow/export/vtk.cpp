@@ -78,11 +78,11 @@ struct Grid {
 
 /// Gives the voxels whose centres a body holds its number. On a line along x the quadratic form is
 /// P_xx (x − x₀)² + least, with the shape matrix' inverse P.
-void fill(std::vector<std::int32_t>& voxels, const Grid& grid, const Ellipsoid& body,
+void fill(std::vector<std::int32_t>& voxels, const Grid& grid, const ParticleShape<3>& body,
           const Quaternion& orientation, const Vec3& centre, std::int32_t number) {
-  const Mat3 form =
-      (orientation.toRotationMatrix() * body.semi_axes.cwiseAbs2().cwiseInverse().asDiagonal() *
-       orientation.toRotationMatrix().transpose());
+  const Mat3 form = (orientation.toRotationMatrix() *
+                     body.half_lengths().cwiseAbs2().cwiseInverse().asDiagonal() *
+                     orientation.toRotationMatrix().transpose());
   const Vec3 reach = half_extents(body, orientation);
   const auto [z_first, z_end] = grid.between(2, centre.z() - reach.z(), centre.z() + reach.z());
   const auto [y_first, y_end] = grid.between(1, centre.y() - reach.y(), centre.y() + reach.y());
@@ -128,13 +128,13 @@ void write_vtp(const std::filesystem::path& path, const Packing& packing, Stored
   std::vector<std::int32_t> particles, species, images, connectivity, offsets;
   for (const BodyInBox& body : packing.bodies) {
     const std::size_t i = body.particle;
-    const Vec3& semi_axes = configuration.shape[i].semi_axes;
+    const Vec3& half_lengths = configuration.shape[i].half_lengths();
     const Quaternion& q = configuration.orientation[i];
     const Mat3 turn = q.toRotationMatrix();
     append(centres, packing.centre(body));
-    append(axes, semi_axes);
+    append(axes, half_lengths);
     append(orientations, Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
-    append(tensors, Mat3(turn * semi_axes.asDiagonal() * turn.transpose()));
+    append(tensors, Mat3(turn * half_lengths.asDiagonal() * turn.transpose()));
     append(velocities, configuration.velocity[i]);
     append(angular_velocities, configuration.angular_velocity[i]);
     append(images, body.shift);

@@ -179,7 +179,7 @@ ForeignFrame StateStage::frame(int dimension) const {
   frame.dimension = dimension;
   frame.position = vectors(positions);
   frame.velocity = vectors(velocities);
-  frame.semi_axes = vectors(semi_axes);
+  frame.half_lengths = vectors(semi_axes);
   frame.angle = angles.value_or(std::vector<double>());
   frame.mass = masses.value_or(std::vector<double>());
   frame.species = species.value_or(std::vector<std::string>());

@@ -123,7 +123,7 @@ bool is_own(const h5::Group& root) {
 /// The unit of length of the results in the place of that of the file.
 void rescale(ForeignFrame& frame, double unit) {
   if (frame.box) *frame.box /= unit;
-  for (auto* vectors : {&frame.position, &frame.unwrapped, &frame.semi_axes, &frame.velocity})
+  for (auto* vectors : {&frame.position, &frame.unwrapped, &frame.half_lengths, &frame.velocity})
     for (Vec3& vector : *vectors) vector /= unit;
 }
 
@@ -135,7 +135,7 @@ std::vector<std::string> parts_of(const ForeignFrame& frame) {
       {!frame.image.empty(), "box crossings"},
       {!frame.angle.empty(), "angles"},
       {!frame.orientation.empty(), "orientations"},
-      {!frame.semi_axes.empty(), "semi-axes"},
+      {!frame.half_lengths.empty(), "semi-axes"},
       {!frame.species.empty(), "species"},
       {!frame.mass.empty(), "masses"},
       {!frame.velocity.empty(), "velocities"},
@@ -211,8 +211,10 @@ class Conversion {
     if (!frame.box && !known_.box)
       throw UserError(
           fmt::format("has no box: it has no {}, and import.box gives none", format_.words.box));
-    if (!frame.semi_axes.empty()) return;
-    const auto has_axes = [](const KnownSpecies& species) { return species.semi_axes.has_value(); };
+    if (!frame.half_lengths.empty()) return;
+    const auto has_axes = [](const KnownSpecies& species) {
+      return species.half_lengths.has_value();
+    };
     const auto is_known = [&](const std::string& name) {
       return std::ranges::any_of(known_.species, [&](const KnownSpecies& species) {
         return species.name == name && has_axes(species);
@@ -297,7 +299,7 @@ class Conversion {
              ? fmt::format("masses (in proportion to the {}, 1 where {} = 1)",
                            Dim == 2 ? "area" : "volume", Dim == 2 ? "a b" : "a b c")
              : "masses (those of the species)");
-    note(frame.semi_axes.empty(), "semi-axes (those of the species)");
+    note(frame.half_lengths.empty(), "semi-axes (those of the species)");
     note(!stores_velocities_, has_half_of_velocities_
                                   ? "angular velocities (so velocities are left out, too)"
                                   : "velocities (energies are left out)");

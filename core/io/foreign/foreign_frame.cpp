@@ -34,7 +34,7 @@ void require_equal_numbers(const ForeignFrame& frame, std::size_t n) {
   require_entries(frame.image, n, "images");
   require_entries(frame.angle, n, "angles");
   require_entries(frame.orientation, n, "orientations");
-  require_entries(frame.semi_axes, n, "semi-axes");
+  require_entries(frame.half_lengths, n, "semi-axes");
   require_entries(frame.mass, n, "masses");
   require_entries(frame.velocity, n, "velocities");
   require_entries(frame.angular_velocity, n, "angular velocities");
@@ -69,12 +69,12 @@ double flat_range(const ForeignFrame& frame, const KnownSystem& known) {
   return tolerance::flat * (box ? box->x() : 1);
 }
 
-double longest_semi_axis(const ForeignFrame& frame, const KnownSystem& known) {
+double longest_half_length(const ForeignFrame& frame, const KnownSystem& known) {
   double longest = 0;
-  for (const Vec3& axes : frame.semi_axes) longest = std::max(longest, axes.maxCoeff());
+  for (const Vec3& half : frame.half_lengths) longest = std::max(longest, half.maxCoeff());
   for (const KnownSpecies& species : known.species)
-    if (frame.semi_axes.empty() && species.semi_axes)
-      longest = std::max(longest, species.semi_axes->maxCoeff());
+    if (frame.half_lengths.empty() && species.half_lengths)
+      longest = std::max(longest, species.half_lengths->maxCoeff());
   return longest;
 }
 
@@ -107,10 +107,10 @@ const KnownSpecies* known_species(const KnownSystem& known, const std::string& n
   return found == known.species.end() ? nullptr : &*found;
 }
 
-Vec3 semi_axes_of(const ForeignFrame& frame, const KnownSpecies* known, std::size_t i,
-                  const std::string& name) {
-  if (!frame.semi_axes.empty()) return frame.semi_axes[i];
-  if (known && known->semi_axes) return *known->semi_axes;
+Vec3 half_lengths_of(const ForeignFrame& frame, const KnownSpecies* known, std::size_t i,
+                     const std::string& name) {
+  if (!frame.half_lengths.empty()) return frame.half_lengths[i];
+  if (known && known->half_lengths) return *known->half_lengths;
   throw UserError(fmt::format(
       "has no semi-axes for species {}; give them there, or as a [[species]] whose particles all "
       "have the same",
@@ -128,18 +128,11 @@ double mass_of(const ForeignFrame& frame, const KnownSpecies* known, std::size_t
   return mass;
 }
 
-void set_shape(Ellipse& shape, const Vec3& axes, std::size_t i) {
-  if (!(axes.head<2>().allFinite() && axes[0] >= axes[1] && axes[1] > 0))
-    throw UserError(fmt::format(
-        "particle {} has the semi-axes {} and {}, but should have a ≥ b > 0", i, axes[0], axes[1]));
-  shape = {axes[0], axes[1]};
-}
-
-void set_shape(Ellipsoid& shape, const Vec3& axes, std::size_t i) {
-  if (!(axes.allFinite() && axes.minCoeff() > 0))
-    throw UserError(fmt::format("particle {} has the semi-axes {}, but they should be above 0", i,
-                                fmt::join(axes, ", ")));
-  shape = {axes};
+template <int Dim>
+ParticleShape<Dim> shape_of_particle(std::size_t i, const Vec<Dim>& half_lengths) {
+  if (const auto shape = shape_of<Dim>(half_lengths)) return *shape;
+  throw UserError(fmt::format("particle {} has the semi-axes {}, but should have {}", i,
+                              fmt::join(half_lengths, ", "), half_lengths_rule<Dim>()));
 }
 
 template <int Dim>
@@ -151,7 +144,8 @@ void set_particles(Configuration<Dim>& configuration, const ForeignFrame& frame,
     const std::string& name = configuration.species_names[static_cast<std::size_t>(species)];
     const KnownSpecies* const kind = known_species(known, name);
     configuration.species[i] = species;
-    set_shape(configuration.shape[i], semi_axes_of(frame, kind, i, name), i);
+    const Vec3 half_lengths = half_lengths_of(frame, kind, i, name);
+    configuration.shape[i] = shape_of_particle<Dim>(i, half_lengths.head<Dim>());
     configuration.mass[i] = mass_of(frame, kind, i, configuration.shape[i]);
   }
 }
@@ -253,11 +247,11 @@ void set_velocities(Configuration<Dim>& configuration, const ForeignFrame& frame
 bool put_longer_axis_first(ForeignFrame& frame) {
   static const Quaternion quarter_turn(std::sqrt(0.5), 0, 0, std::sqrt(0.5));
   bool any = false;
-  for (std::size_t i = 0; i < frame.semi_axes.size(); ++i) {
-    Vec3& axes = frame.semi_axes[i];
-    if (axes[0] >= axes[1]) continue;
+  for (std::size_t i = 0; i < frame.half_lengths.size(); ++i) {
+    Vec3& half = frame.half_lengths[i];
+    if (half[0] >= half[1]) continue;
     any = true;
-    std::swap(axes[0], axes[1]);
+    std::swap(half[0], half[1]);
     if (i < frame.angle.size()) frame.angle[i] += 0.5 * std::numbers::pi;
     if (i < frame.orientation.size()) frame.orientation[i] = frame.orientation[i] * quarter_turn;
   }
@@ -322,7 +316,7 @@ int dimension_of(const ForeignFrame& frame, const KnownSystem& known, const std:
   const std::optional<Vec3>& box = frame.box ? frame.box : known.box;
   const std::vector<Vec3>& positions = places_of(frame);
   const bool is_flat = positions.size() > 1 && height_range(positions) <= flat_range(frame, known);
-  if (box && is_flat && box->z() < 4 * longest_semi_axis(frame, known))
+  if (box && is_flat && box->z() < 4 * longest_half_length(frame, known))
     throw UserError(fmt::format(
         "all particles have the same z, in a box of height {}: they may be particles in the plane, "
         "which {} says, or in space (import.dimension = 3)",

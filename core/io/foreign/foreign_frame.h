@@ -32,7 +32,7 @@ struct ForeignFrame {
   std::vector<Shift<3>> image;
   std::vector<double> angle;            ///< of the first semi-axis, radians; in the plane only
   std::vector<Quaternion> orientation;  ///< from the axes of the body to those of space
-  std::vector<Vec3> semi_axes;
+  std::vector<Vec3> half_lengths;       ///< along the axes of the body
   std::vector<double> mass;
   std::vector<Vec3> velocity, angular_velocity;  ///< both in the axes of space
   std::vector<std::string> species;
@@ -82,7 +82,7 @@ bool put_longer_axis_first(ForeignFrame& frame);
 /// A species by its name; with semi-axes and mass where all its particles have the same.
 struct KnownSpecies {
   std::string name;
-  std::optional<Vec3> semi_axes = {};
+  std::optional<Vec3> half_lengths = {};
   std::optional<double> mass = {};
 };
 

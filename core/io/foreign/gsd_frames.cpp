@@ -328,7 +328,7 @@ class GsdFrames final : public ForeignFrames {
     }
     const std::vector<std::optional<Vec3>> shapes = shapes_of(types.size());
     const std::vector<double> diameters = rows("particles/diameter", 1);
-    const std::vector<Vec3> semi_axes = vectors("log/particles/semiaxes");
+    const std::vector<Vec3> own = vectors("log/particles/semiaxes");
     std::size_t without_shape = 0;
     if (types.size() > 1 && is_absent("particles/typeid"))
       frame.assumed["species"] = types.front() + ", the default of particles/typeid";
@@ -337,17 +337,17 @@ class GsdFrames final : public ForeignFrames {
         fail(fmt::format("particles/typeid has the type {}, but there are {}", type, types.size()));
       const auto k = static_cast<std::size_t>(type);
       frame.species.push_back(species_of(types[k]));
-      const std::size_t i = frame.semi_axes.size();
+      const std::size_t i = frame.half_lengths.size();
       if (!shapes.empty() && shapes[k]) {
-        frame.semi_axes.push_back(*shapes[k]);
-      } else if (!semi_axes.empty()) {
-        frame.semi_axes.push_back(semi_axes[i]);
+        frame.half_lengths.push_back(*shapes[k]);
+      } else if (!own.empty()) {
+        frame.half_lengths.push_back(own[i]);
       } else {
-        frame.semi_axes.push_back(Vec3::Constant(i < diameters.size() ? 0.5 * diameters[i] : 0));
+        frame.half_lengths.push_back(Vec3::Constant(i < diameters.size() ? 0.5 * diameters[i] : 0));
         ++without_shape;
       }
     }
-    if (without_shape > 0 && diameters.empty()) frame.semi_axes.clear();
+    if (without_shape > 0 && diameters.empty()) frame.half_lengths.clear();
     if (without_shape == 0 && !diameters.empty())
       frame.skipped.insert("particles/diameter, as the shapes say more");
   }

@@ -280,9 +280,10 @@ class H5mdFrames final : public ForeignFrames {
     for (const auto& row : rows("angular_velocity", 1, 3))
       frame.angular_velocity.emplace_back(row.size() == 3 ? row[0] : 0,
                                           row.size() == 3 ? row[1] : 0, row.back());
-    frame.semi_axes = vectors("semiaxes");
-    for (const double radius : frame.semi_axes.empty() ? numbers("radius") : std::vector<double>())
-      frame.semi_axes.push_back(Vec3::Constant(radius));
+    frame.half_lengths = vectors("semiaxes");
+    for (const double radius :
+         frame.half_lengths.empty() ? numbers("radius") : std::vector<double>())
+      frame.half_lengths.push_back(Vec3::Constant(radius));
     frame.mass = numbers("mass");
     set_species(frame);
     if (!states_boundaries_) frame.assumed["boundaries"] = "periodic";

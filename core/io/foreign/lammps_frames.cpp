@@ -370,7 +370,7 @@ class DataFrames final : public ForeignFrames, LammpsFile {
   void add_sphere(ForeignFrame& frame, double diameter, double density) const {
     if (diameter == 0) fail("points, of diameter 0, have no size");
     const Vec3 axes = Vec3::Constant(0.5 * diameter);
-    frame.semi_axes.push_back(axes);
+    frame.half_lengths.push_back(axes);
     frame.mass.push_back(density * volume(axes));
   }
 
@@ -378,7 +378,7 @@ class DataFrames final : public ForeignFrames, LammpsFile {
     const std::vector<double>* const shape = is_ellipsoid ? row("Ellipsoids", id, 8) : nullptr;
     if (!shape) fail(fmt::format("atom {} is a point and has no size", id));
     const Vec3 axes = 0.5 * Vec3(&(*shape)[1]);
-    frame.semi_axes.push_back(axes);
+    frame.half_lengths.push_back(axes);
     frame.orientation.emplace_back((*shape)[4], (*shape)[5], (*shape)[6], (*shape)[7]);
     frame.mass.push_back(density * volume(axes));
   }
@@ -397,7 +397,7 @@ class DataFrames final : public ForeignFrames, LammpsFile {
     }
     const Quaternion& q = frame.orientation.back();
     const Vec3 inertia =
-        frame.mass.back() * Ellipsoid{frame.semi_axes.back()}.full_inertia_per_mass();
+        frame.mass.back() * Ellipsoid{frame.half_lengths.back()}.full_inertia_per_mass();
     const Vec3 momentum = q.conjugate() * rotation;
     frame.angular_velocity.push_back(q * Vec3(momentum.cwiseQuotient(inertia)));
   }

@@ -161,7 +161,7 @@ std::vector<Vec3> ParticleTable::vectors(const std::string& prefix,
   return result;
 }
 
-std::vector<Vec3> ParticleTable::semi_axes(const Order& order) const {
+std::vector<Vec3> ParticleTable::half_lengths(const Order& order) const {
   std::vector<Vec3> axes = vectors("", {"a", "b", "c"}, order);
   for (const Vec3& whole : vectors("diameter_", directions, axes.empty() ? order : Order()))
     axes.push_back(0.5 * whole);
@@ -203,7 +203,7 @@ ForeignFrame ParticleTable::frame(const std::string& place) const {
   const std::vector<Vec3> vector_part = vectors("q", directions, order);
   for (std::size_t i = 0; i < w.size(); ++i)
     frame.orientation.emplace_back(w[i], vector_part[i][0], vector_part[i][1], vector_part[i][2]);
-  frame.semi_axes = semi_axes(order);
+  frame.half_lengths = half_lengths(order);
   frame.mass = numbers("mass", order);
   frame.velocity = vectors("v", directions, order);
   frame.angular_velocity = vectors("omega_", directions, order);

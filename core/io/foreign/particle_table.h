@@ -50,7 +50,7 @@ class ParticleTable {
   /// Vectors from three columns "x", "y", "z" behind a prefix; the third may be missing and is then 0.
   std::vector<Vec3> vectors(const std::string& prefix, const std::array<const char*, 3>& columns,
                             const Order& order) const;
-  std::vector<Vec3> semi_axes(const Order& order) const;
+  std::vector<Vec3> half_lengths(const Order& order) const;
   std::optional<double> single(const std::string& column) const;
   Order by_id(const std::string& place) const;
 
