@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "edmd/brownian.h"
-#include "edmd/sampling.h"
 #include "edmd/time_text.h"
 
 namespace vitrel {
@@ -30,7 +29,8 @@ class EventDrivenRun {
         plan_(plan),
         control_(control),
         engine_(make_engine(state.configuration, options.engine)),
-        ticks_(plan.ticks.observer ? even_count(plan.ticks.interval, plan.end_time) : 0) {}
+        ticks_(plan.ticks.observer ? linear_times(plan.ticks.interval, plan.end_time)
+                                   : SampleTimes()) {}
 
   StageReport run() {
     try {
@@ -82,14 +82,10 @@ class EventDrivenRun {
     return false;
   }
 
-  double next_sample_time() const {
-    return state_.next_sample < plan_.sample_times.size() ? plan_.sample_times[state_.next_sample]
-                                                          : std::numeric_limits<double>::infinity();
-  }
-  double next_tick_time() const {
-    return state_.next_tick < ticks_
-               ? even_time(state_.next_tick, plan_.ticks.interval, plan_.end_time)
-               : std::numeric_limits<double>::infinity();
+  double next_sample_time() const { return time_of(plan_.sample_times, state_.next_sample); }
+  double next_tick_time() const { return time_of(ticks_, state_.next_tick); }
+  static double time_of(const SampleTimes& times, std::uint64_t k) {
+    return k < times.size() ? times[k] : std::numeric_limits<double>::infinity();
   }
   double next_step_time() const {
     const double interval = options_.brownian  ? options_.brownian_step
@@ -175,7 +171,7 @@ class EventDrivenRun {
   const RunPlan<Dim>& plan_;
   const RunControl& control_;
   std::unique_ptr<Engine<Dim>> engine_;
-  const std::uint64_t ticks_;  ///< in the whole run
+  const SampleTimes ticks_;  ///< of the whole run
 };
 
 }  // namespace

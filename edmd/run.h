@@ -8,6 +8,7 @@
 #include "edmd/brownian.h"
 #include "edmd/engine.h"
 #include "edmd/options.h"
+#include "edmd/sampling.h"
 
 namespace vitrel {
 
@@ -47,7 +48,7 @@ struct Ticks {
 /// schedules differ by rounding.
 template <int Dim>
 struct RunPlan {
-  std::vector<double> sample_times;
+  SampleTimes sample_times;
   double end_time = 0;
   Observer<Dim>* observer = nullptr;
   std::function<void(const RunState<Dim>&)> at_block_end;

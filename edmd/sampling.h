@@ -1,18 +1,33 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 namespace vitrel {
 
-/// The evenly spaced times 0, interval, 2 interval, … ≤ duration: their number, and the k-th of them.
-std::uint64_t even_count(double interval, double duration);
-double even_time(std::uint64_t k, double interval, double duration);
+/// The times of the samples of a run, in ascending order. They are computed when they are asked for: there may be 10⁸.
+class SampleTimes {
+ public:
+  /// No samples.
+  SampleTimes() = default;
 
-/// All of them, as sample times.
-std::vector<double> linear_times(double interval, double duration);
+  std::uint64_t size() const { return size_; }
+  /// The time of sample k < size().
+  double operator[](std::uint64_t k) const;
 
-/// Sample times 0, first, first · 10^(1/per_decade), … ≤ duration.
-std::vector<double> logarithmic_times(double first, int per_decade, double duration);
+ private:
+  friend SampleTimes linear_times(double interval, double duration);
+  friend SampleTimes logarithmic_times(double first, int per_decade, double duration);
+
+  double interval_ = 0;  ///< the first time after 0
+  double duration_ = 0;
+  int per_decade_ = 0;  ///< 0: evenly spaced
+  std::uint64_t size_ = 0;
+};
+
+/// 0, interval, 2 interval, … ≤ duration.
+SampleTimes linear_times(double interval, double duration);
+
+/// 0, first, first · 10^(1/per_decade), … ≤ duration.
+SampleTimes logarithmic_times(double first, int per_decade, double duration);
 
 }  // namespace vitrel

@@ -269,19 +269,45 @@ TEST(Run, InelasticCollisionsDissipateWhatTheyCount) {
 }
 
 TEST(Sampling, LinearTimesIncludeBothEnds) {
-  const std::vector<double> times = linear_times(0.1, 100);
+  const SampleTimes times = linear_times(0.1, 100);
   ASSERT_EQ(times.size(), 1001u);
-  EXPECT_EQ(times.front(), 0);
-  EXPECT_NEAR(times.back(), 100, 1e-12);
+  EXPECT_EQ(times[0], 0);
+  EXPECT_NEAR(times[1000], 100, 1e-12);
 }
 
 TEST(Sampling, LogarithmicTimesStepByEqualFactors) {
-  const std::vector<double> times = logarithmic_times(0.01, 10, 100);
+  const SampleTimes times = logarithmic_times(0.01, 10, 100);
   ASSERT_EQ(times.size(), 42u);
   EXPECT_EQ(times[0], 0);
   for (std::size_t k = 2; k < times.size(); ++k)
     EXPECT_NEAR(times[k] / times[k - 1], std::pow(10, 0.1), 1e-12);
-  EXPECT_NEAR(times.back(), 100, 1e-12);
+  EXPECT_NEAR(times[41], 100, 1e-12);
+}
+
+// The number of logarithmic times is computed, not counted.
+TEST(Sampling, LogarithmicTimesEndWithTheLastThatIsNotLaterThanTheRun) {
+  Stream draw(5, Purpose::tests);
+  for (int k = 0; k < 1000; ++k) {
+    const int per_decade = 1 + static_cast<int>(draw.below(50));
+    const double first = std::pow(10, draw.uniform(-6, 3));
+    const double duration = first * std::pow(10, draw.uniform(-1, 6));
+    const SampleTimes times = logarithmic_times(first, per_decade, duration);
+    const SampleTimes longer = logarithmic_times(first, per_decade, 100 * duration);
+    ASSERT_LE(times[times.size() - 1], duration);
+    ASSERT_GT(longer[times.size()], duration);
+  }
+}
+
+// As many as a file may ask for, without a list of them.
+TEST(Sampling, TimesAreNotStored) {
+  constexpr int all = 100'000'000;
+  const SampleTimes even = linear_times(1e-3, 1e-3 * all);
+  const SampleTimes logarithmic = logarithmic_times(1, all, 10);
+  EXPECT_EQ(even.size(), all + 1u);
+  EXPECT_EQ(logarithmic.size(), all + 2u);
+  EXPECT_NEAR(even[all / 2], 5e4, 1e-7);
+  EXPECT_NEAR(logarithmic[all / 2 + 1], std::sqrt(10.), 1e-12);
+  EXPECT_LE(sizeof even, 64u);
 }
 
 }  // namespace

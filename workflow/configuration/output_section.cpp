@@ -100,6 +100,11 @@ void validate_output(const Parameters& parameters) {
                     fmt::format("is {}, but must not exceed dynamics.duration = {}", show(value),
                                 show(duration)));
   };
+  const auto are_possible = [&](double number, const char* key, const std::string& value) {
+    samples.require(
+        number <= 1e8, key,
+        fmt::format("is {}, which makes {:.3g} samples; at most 1e8 are possible", value, number));
+  };
   if (p.spacing == OutputParameters::Spacing::linear) {
     samples.require(
         p.interval || !parameters.dynamics.relaxation_times, "interval",
@@ -107,14 +112,14 @@ void validate_output(const Parameters& parameters) {
         "before, so that the interval must be given, or spacing = \"logarithmic\"");
     const double interval = sample_interval(parameters);
     within(interval, "interval");
-    samples.require(duration / interval <= 1e8, "interval",
-                    fmt::format("is {}, which makes {:.3g} samples; at most 1e8 are possible",
-                                show(interval), duration / interval));
+    are_possible(duration / interval, "interval", show(interval));
   } else {
     within(p.first, "first");
     samples.require(duration / p.first <= 1e12, "first",
                     fmt::format("is {}, but must be at least 1e-12 of dynamics.duration = {}",
                                 show(p.first), show(duration)));
+    are_possible(static_cast<double>(sample_times(parameters).size()), "per_decade",
+                 std::to_string(p.per_decade));
   }
   if (p.correlations) validate_correlations(*p.correlations, duration);
 }

@@ -386,7 +386,7 @@ double longest_lag(const Parameters& parameters) {
   return parameters.output.correlations->longest_lag.value_or(0.5 * parameters.dynamics.duration);
 }
 
-std::vector<double> sample_times(const Parameters& parameters) {
+SampleTimes sample_times(const Parameters& parameters) {
   const OutputParameters& p = parameters.output;
   const double duration = parameters.dynamics.duration;
   return p.spacing == OutputParameters::Spacing::linear

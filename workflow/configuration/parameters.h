@@ -13,6 +13,7 @@
 #include "core/io/parameters.h"
 #include "core/state/species.h"
 #include "edmd/options.h"
+#include "edmd/sampling.h"
 #include "edmd/soft/linear_dashpot.h"
 #include "edmd/soft/viscoelastic.h"
 #include "workflow/stages/stage.h"
@@ -227,6 +228,6 @@ double sample_interval(const Parameters& parameters);
 /// The longest time difference of correlations on the fly.
 double longest_lag(const Parameters& parameters);
 /// Sample times, from 0 to the duration.
-std::vector<double> sample_times(const Parameters& parameters);
+SampleTimes sample_times(const Parameters& parameters);
 
 }  // namespace vitrel

@@ -43,7 +43,7 @@ std::optional<std::string> difference(const TrajectoryReader& trajectory,
     return fmt::format("has {} frames instead of {}", trajectory.frames(), counted);
   if (counted == 0) return std::nullopt;
   const double time = trajectory.times()[counted - 1];
-  const double expected = sample_times(recorded).at(counted - 1);
+  const double expected = sample_times(recorded)[counted - 1];
   if (time != expected)
     return fmt::format("has frame {} at time {}, not {}", counted - 1, time, expected);
   if (!same_particles(trajectory.read<Dim>(counted - 1), run.state.configuration))
