@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -16,18 +17,25 @@ constexpr std::size_t max_drawn = 1000, packings_drawn = 2000;
 // The smallest numbers of axes for which ⟨ρ⟩ and ⟨ρ²⟩ are finite.
 constexpr std::size_t min_for_mean = 5, min_for_deviation = 7;
 
+/// A random point of the unit disk, lifted to the sphere (Marsaglia, 1972): one random word an attempt.
 Vec3 isotropic_axis(Stream& draw) {
-  const double z = draw.uniform(-1, 1), angle = draw.uniform(0, 2 * std::numbers::pi);
-  const double radius = std::sqrt(1 - z * z);
-  return {radius * std::cos(angle), radius * std::sin(angle), z};
+  while (true) {
+    const std::uint64_t word = draw.bits();
+    const double x = 0x1p-31 * static_cast<double>(static_cast<std::uint32_t>(word)) - 1,
+                 y = 0x1p-31 * static_cast<double>(word >> 32) - 1, square = x * x + y * y;
+    if (square >= 1) continue;
+    const double scale = 2 * std::sqrt(1 - square);
+    return {scale * x, scale * y, 1 - 2 * square};
+  }
 }
 
 OrientationTensor isotropic_tensor(std::size_t axes, Stream& draw) {
   OrientationTensor tensor{Mat3::Zero(), axes};
   for (std::size_t i = 0; i < axes; ++i) {
     const Vec3 w = isotropic_axis(draw);
-    tensor.matrix += w * w.transpose() / static_cast<double>(axes);
+    tensor.matrix += w * w.transpose();
   }
+  tensor.matrix /= static_cast<double>(axes);
   return tensor;
 }
 
