@@ -126,6 +126,17 @@ Observable displacement_observable(int dimension) {
           .what =
               "Mean squared displacements, also along and across the axis of the particles, mean "
               "squared rotations, fourth powers and non-Gaussian parameters.",
+          .columns = {{"time", "time", "t, the time difference"},
+                      {"msd", "length^2", "⟨|Δr|²⟩", true},
+                      {"msd_parallel", "length^2", "⟨(Δr·u(0))²⟩", true},
+                      {"msd_perpendicular", "length^2", "⟨|Δr|²⟩ − ⟨(Δr·u(0))²⟩", true},
+                      {"quartic", "length^4", "⟨|Δr|⁴⟩", true},
+                      {"non_gaussian", "1", "d⟨|Δr|⁴⟩/((d + 2)⟨|Δr|²⟩²) − 1", true},
+                      {"msr", "rad^2", "⟨|Δφ|²⟩, φ the angle or the rotation vector", true},
+                      {"quartic_rotation", "rad^4", "⟨|Δφ|⁴⟩", true},
+                      {"non_gaussian_rotation", "1",
+                       "n⟨|Δφ|⁴⟩/((n + 2)⟨|Δφ|²⟩²) − 1, n = 1 in the plane, 3 in space", true},
+                      {"origins", "1", "origins of time averaged over"}},
           .needs = {.motion = true},
           .charts = {mean_square("Mean squared displacement", "⟨|Δr(t)|²⟩",
                                  {{"msd", "⟨|Δr|²⟩"},
@@ -150,6 +161,9 @@ Table scattering_table(const Displacements& found, const DisplacementGroup& grou
 Observable scattering_observable() {
   return {.table = "self_scattering",
           .what = "Self-intermediate scattering functions at the wave numbers.",
+          .columns = {{"time", "time", "t, the time difference"},
+                      {"fs_#", "1",
+                       "⟨exp(iq·Δr)⟩ at the k-th of wave_numbers, over all directions of q", true}},
           .needs = {.motion = true},
           .charts = {at_wave_numbers(
               correlation("Self-intermediate scattering", "Fₛ(q, t)", {{"fs_#", "#"}}))},
@@ -176,6 +190,7 @@ Observable rotation_observable(int dimension) {
   Observable observable{
       .table = "orientation",
       .what = "Orientational correlations L_n(t) = <cos n(angle(t) - angle(0))>.",
+      .columns = {{"time", "time", "t, the time difference"}, {"l_#", "1", "⟨cos nΔθ⟩", true}},
       .needs = {.motion = true, .rotors = true},
       .charts = {correlation("Orientational correlation", "Lₙ(t) = ⟨cos nΔθ⟩", {{"l_#", "L#"}})},
       .has_groups = true};
@@ -183,6 +198,10 @@ Observable rotation_observable(int dimension) {
   observable.what =
       "Orientational correlations <P_n(u(0).u(t))> of the axis of symmetry; of scalene bodies "
       "those of all three axes.";
+  observable.columns = {
+      {"time", "time", "t, the time difference"},
+      {"p_#", "1", "⟨P_n(u(0)·u(t))⟩, u the axis of symmetry or the longest", true},
+      {"p_#_*", "1", "the same of the middle and the short axis of scalene bodies", true}};
   Chart& chart = observable.charts.front();
   chart.symbol = "⟨Pₗ(u(0)·u(t))⟩";
   chart.curves = {
@@ -206,6 +225,9 @@ Observable susceptibility_observable() {
       .what =
           "Overlap Q(t), the share of particles that have hardly moved, and its four-point "
           "susceptibility.",
+      .columns = {{"time", "time", "t, the time difference"},
+                  {"overlap", "1", "Q, the share with |Δr| < analysis.overlap_distance", true},
+                  {"chi_4", "1", "N(⟨Q²⟩ − ⟨Q⟩²)", true}},
       .needs = {.motion = true},
       .charts = {against_time(relaxation, "Four-point susceptibility", "χ₄(t)", {{"chi_4", "χ₄"}}),
                  against_time(relaxation, "Overlap", "⟨Q(t)⟩", {{"overlap", "⟨Q⟩"}}, decay)},
@@ -235,6 +257,13 @@ Observable cage_relative_observable() {
       .what =
           "Mean squared displacement, scattering functions, overlap and four-point "
           "susceptibility of motion relative to the neighbours.",
+      .columns = {{"time", "time", "t, the time difference"},
+                  {"msd", "length^2", "⟨|δ|²⟩, δ = Δr less the mean of the Voronoi neighbours",
+                   true},
+                  {"fs_#", "1", "⟨exp(iq·δ)⟩", true},
+                  {"overlap", "1", "Q, the share with |δ| < analysis.overlap_distance", true},
+                  {"chi_4", "1", "N(⟨Q²⟩ − ⟨Q⟩²)", true},
+                  {"origins", "1", "origins of time averaged over"}},
       .needs = {.motion = true},
       .charts = {mean_square("Mean squared displacement relative to the cage", "⟨|Δr(t)|²⟩",
                              {{"msd", "⟨|Δr − Δr of the neighbours|²⟩"}}),
@@ -296,6 +325,12 @@ Observable ageing_observable(int dimension) {
   return {
       .table = "ageing",
       .what = "Displacements, rotations and correlations after every waiting time.",
+      .columns = {{"time", "time", "t, the time difference"},
+                  {"msd_#", "length^2", "⟨|r(t_w + t) − r(t_w)|²⟩ after the k-th of waiting_times",
+                   true},
+                  {"msr_#", "rad^2", "the same of rotations", true},
+                  {"fs_#", "1", "F_s at the first wave number", true},
+                  {"l_#", "1", "L₂, in space ⟨P₂⟩", true}},
       .needs = {.motion = true, .waiting_times = true},
       .charts = {at_waiting_times(mean_square("Mean squared displacement after waiting",
                                               "⟨|r(t_w + t) − r(t_w)|²⟩", {{"msd_#", "#"}})),
@@ -322,6 +357,10 @@ Table waiting_time_table(const std::vector<AgedMotion>& ageing) {
 Observable waiting_time_observable(int dimension) {
   Observable observable{.table = "waiting_times",
                         .what = "Waiting times of the ageing.",
+                        .columns = {{"index", "1", "k"},
+                                    {"waiting_time", "time", "t_w"},
+                                    {"nematic_length", "length",
+                                     "beyond which ⟨cos 2(θ_i − θ_j)⟩ < 1/e (in the plane)"}},
                         .needs = {.motion = true, .waiting_times = true}};
   if (dimension != 2) return observable;
   observable.what = "Waiting times of the ageing, and the length of nematic domains at them.";
@@ -364,6 +403,8 @@ Table collective_table(const CollectiveScattering& found) {
 Observable collective_observable() {
   return {.table = "collective_scattering",
           .what = "Collective intermediate scattering functions, F(q, 0) = S(q).",
+          .columns = {{"time", "time", "t, the time difference"},
+                      {"f_#", "1", "⟨ρ(q, t) ρ(−q, 0)⟩/N", true}},
           .needs = {.motion = true},
           .charts = {at_wave_numbers(
               against_time(relaxation, "Collective scattering", "F(q, t)", {{"f_#", "#"}}),
@@ -399,9 +440,14 @@ std::vector<Observable> dynamics_observables(int dimension) {
   std::vector<Observable> observables = {displacement_observable(dimension),
                                          scattering_observable(), rotation_observable(dimension)};
   if (dimension == 2) observables.push_back(cage_relative_observable());
-  observables.push_back({.table = "wave_numbers",
-                         .what = "Wave numbers of the scattering functions.",
-                         .needs = {.motion = true}});
+  observables.push_back(
+      {.table = "wave_numbers",
+       .what = "Wave numbers of the scattering functions.",
+       .columns = {{"index", "1", "k"},
+                   {"q", "1/length", "wave number of fs_k"},
+                   {"q_collective", "1/length", "mean length of the wave vectors of f_k"},
+                   {"modes", "1", "their number"}},
+       .needs = {.motion = true}});
   observables.push_back(collective_observable());
   observables.push_back(susceptibility_observable());
   observables.push_back(ageing_observable(dimension));

@@ -44,9 +44,15 @@ std::vector<Observable> energy_observables() {
                 .level_of_run = Chart::Level::mean};
   return {{.table = "energies",
            .what = "Translational, rotational and total energy per particle.",
+           .columns = {{"time", "time", "time of the frame"},
+                       {"translational", "kT", "Σ m v²/(2N)"},
+                       {"rotational", "kT", "Σ ω·I ω/(2N)"},
+                       {"total", "kT", "their sum"}},
            .charts = {energy}},
           {.table = "compressibility_factor",
            .what = "Compressibility factor from the virial of the collisions between two samples.",
+           .columns = {{"time", "time", "end of the interval"},
+                       {"z", "1", "Z = PV/(N kT), of the virial since the sample before"}},
            .needs = {.motion = true},
            .charts = {z}}};
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace vitrel {
@@ -27,11 +29,18 @@ std::vector<Observable> velocity_observables() {
   return {
       {.table = "velocity_autocorrelation",
        .what = "Autocorrelations <v(0).v(t)>/<v^2> of velocities and of angular velocities.",
+       .columns = {{"time", "time", "t, the time difference"},
+                   {"c", "1", "⟨v(0)·v(t)⟩/⟨v²⟩", true},
+                   {"c_angular", "1", "⟨ω(0)·ω(t)⟩/⟨ω²⟩", true},
+                   {"origins", "1", "origins of time averaged over"}},
        .needs = needs,
        .charts = {correlation}},
       {.table = "velocity_spectrum",
        .what = "Spectra (2/pi) int C(t) cos(wt) dt of these autocorrelations, for evenly sampled "
                "runs: the density of states of vibrations; the integral over w is 1.",
+       .columns = {{"frequency", "rad/time", "w"},
+                   {"g", "time/rad", "(2/π) ∫ C(t) cos(wt) dt", true},
+                   {"g_angular", "time/rad", "the same of ω", true}},
        .needs = needs,
        .charts = {spectrum}}};
 }
@@ -62,6 +71,9 @@ Observable viscosity_observable() {
           .what =
               "Mean squared change of the Helfand moments, <(G(t) - G(0))^2>/(2 V kT), whose "
               "slope is the shear viscosity; of elastic Newtonian runs.",
+          .columns = {{"time", "time", "t, the time difference"},
+                      {"moment", "kT time^2/length^*", "⟨(G(t) − G(0))²⟩/(2 V kT)", true},
+                      {"origins", "1", "origins of time averaged over"}},
           .needs = {.motion = true},
           .charts = {{.section = in_motion,
                       .heading = "Helfand moment of the shear stress",
@@ -82,55 +94,61 @@ Table viscosity_table(const Viscosity& found, int dimension) {
            {"origins", "1", {found.origins.begin(), found.origins.end()}}}};
 }
 
-/// The table of a function of two times has the x of its chart as rows, and a column for every lag.
-struct TwoTimeTable {
-  Observable observable;
-  const char *x_unit, *unit;
-};
-
-Observable of_two_times(const char* name, const char* what, Chart chart) {
+/// The table of a function of two times has a column for every lag.
+Observable of_two_times(const char* name, const char* what, std::vector<ColumnKind> columns,
+                        Chart chart) {
   chart.numbers = {"lag_times", "time", "t"};
-  return {.table = name, .what = what, .needs = {.motion = true}, .charts = {std::move(chart)}};
+  return {.table = name,
+          .what = what,
+          .columns = std::move(columns),
+          .needs = {.motion = true},
+          .charts = {std::move(chart)}};
 }
 
-std::vector<TwoTimeTable> two_time_tables() {
-  return {{of_two_times("van_hove_self",
-                        "Self part of the Van Hove function: density of the distances that "
-                        "particles move in the times of table lag_times, 2 pi r G_s in the plane "
-                        "and 4 pi r^2 G_s in space.",
-                        {.section = in_motion,
-                         .heading = "Van Hove function, self part",
-                         .symbol = "density of |Δr|",
-                         .curves = {{"density_#", "#"}},
-                         .scale = Chart::Scale::logarithmic,
-                         .x = "r",
-                         .x_symbol = "r",
-                         .is_x_logarithmic = true}),
-           "length", "1/length"},
-          {of_two_times("van_hove_distinct",
-                        "Distinct part of the Van Hove function: G_d/density of other particles "
-                        "around where one was the times of table lag_times before, g(r) for t = 0.",
-                        {.section = in_motion,
-                         .heading = "Van Hove function, distinct part",
-                         .symbol = "G_d(r, t)/ρ",
-                         .curves = {{"g_#", "#"}},
-                         .scale = Chart::Scale::around_one,
-                         .x = "r",
-                         .x_symbol = "r",
-                         .levels = {1}}),
-           "length", "1"},
-          {of_two_times("four_point_structure",
-                        "Four-point structure factor <|sum_i w_i exp(iq.r_i(0))|^2>/N at small q: "
-                        "w_i = 1 for particles closer than analysis.overlap_distance to where they "
-                        "were the times of table lag_times before, else 0.",
-                        {.section = in_relaxation,
-                         .heading = "Four-point structure factor",
-                         .symbol = "S₄(q, t)",
-                         .curves = {{"s4_#", "#"}},
-                         .scale = Chart::Scale::from_zero,
-                         .x = "q",
-                         .x_symbol = "q"}),
-           "1/length", "1"}};
+std::vector<Observable> two_time_tables() {
+  return {of_two_times("van_hove_self",
+                       "Self part of the Van Hove function: density of the distances that "
+                       "particles move in the times of table lag_times, 2 pi r G_s in the plane "
+                       "and 4 pi r^2 G_s in space.",
+                       {{"r", "length", "distance"},
+                        {"density_#", "1/length",
+                         "density of |Δr(t_k)|: 2π r G_s, in space 4π r² G_s", true}},
+                       {.section = in_motion,
+                        .heading = "Van Hove function, self part",
+                        .symbol = "density of |Δr|",
+                        .curves = {{"density_#", "#"}},
+                        .scale = Chart::Scale::logarithmic,
+                        .x = "r",
+                        .x_symbol = "r",
+                        .is_x_logarithmic = true}),
+          of_two_times("van_hove_distinct",
+                       "Distinct part of the Van Hove function: G_d/density of other particles "
+                       "around where one was the times of table lag_times before, g(r) for t = 0.",
+                       {{"r", "length", "distance"}, {"g_#", "1", "G_d(r, t_k)/ρ", true}},
+                       {.section = in_motion,
+                        .heading = "Van Hove function, distinct part",
+                        .symbol = "G_d(r, t)/ρ",
+                        .curves = {{"g_#", "#"}},
+                        .scale = Chart::Scale::around_one,
+                        .x = "r",
+                        .x_symbol = "r",
+                        .levels = {1}}),
+          of_two_times("four_point_structure",
+                       "Four-point structure factor <|sum_i w_i exp(iq.r_i(0))|^2>/N at small q: "
+                       "w_i = 1 for particles closer than analysis.overlap_distance to where they "
+                       "were the times of table lag_times before, else 0.",
+                       {{"q", "1/length", "wave number"},
+                        {"s4_#", "1",
+                         "⟨|Σ w_i exp(iq·r_i(0))|²⟩/N, w_i = 1 if |Δr_i(t_k)| < "
+                         "analysis.overlap_distance, else 0",
+                         true}},
+                       {.section = in_relaxation,
+                        .heading = "Four-point structure factor",
+                        .symbol = "S₄(q, t)",
+                        .curves = {{"s4_#", "#"}},
+                        .scale = Chart::Scale::from_zero,
+                        .x = "q",
+                        .x_symbol = "q"})};
 }
 
 Table lag_table(const std::vector<Lag>& lags) {
@@ -143,14 +161,13 @@ Table lag_table(const std::vector<Lag>& lags) {
   return table;
 }
 
-Table table_of(const TwoTimeTable& kind, const TwoTimeAverages& found) {
-  const Chart& chart = kind.observable.charts.front();
-  Table table{kind.observable.table, kind.observable.what, {{chart.x, kind.x_unit, found.x}}};
-  const std::string name = chart.curves.front().column;  // ends with #
+Table table_of(const Observable& kind, const TwoTimeAverages& found) {
+  const ColumnKind &x = kind.columns.front(), &at_lags = kind.columns.back();
+  Table table{kind.table, kind.what, {{x.name, x.unit, found.x}}};
+  const std::string name = at_lags.name.substr(0, at_lags.name.size() - 1);  // without #
   for (const Averages& lag : found.at_lag)
     table.columns.push_back(
-        {fmt::format("{}{}", name.substr(0, name.size() - 1), table.columns.size()), kind.unit,
-         lag.mean, lag.error});
+        {fmt::format("{}{}", name, table.columns.size()), at_lags.unit, lag.mean, lag.error});
   return table;
 }
 
@@ -161,7 +178,7 @@ std::vector<Table> motion_tables(const RunMotion& motion) {
   if (motion.velocities) tables = velocity_tables(*motion.velocities);
   if (motion.viscosity) tables.push_back(viscosity_table(*motion.viscosity, motion.dimension));
   tables.push_back(lag_table(motion.lags));
-  const std::vector<TwoTimeTable> kinds = two_time_tables();
+  const std::vector<Observable> kinds = two_time_tables();
   for (std::size_t k = 0; k < motion.two_times.size(); ++k)
     tables.push_back(table_of(kinds[k], motion.two_times[k]));
   return tables;
@@ -173,8 +190,11 @@ std::vector<Observable> motion_observables() {
   observables.push_back(
       {.table = "lag_times",
        .what = "Time differences of the tables with a column for each, about ten.",
+       .columns = {{"index", "1", "k"},
+                   {"time", "time", "t_k"},
+                   {"origins", "1", "origins of time averaged over"}},
        .needs = {.motion = true}});
-  for (const TwoTimeTable& kind : two_time_tables()) observables.push_back(kind.observable);
+  std::ranges::move(two_time_tables(), std::back_inserter(observables));
   return observables;
 }
 

@@ -17,6 +17,13 @@ struct Curve {
   bool is_of_rotors = false;  ///< of particles that are not round only
 };
 
+/// A column of a table, or several, as of Curve. A `*` in the unit is a power that depends on the dimension.
+struct ColumnKind {
+  std::string name, unit;
+  std::string what;        ///< its definition
+  bool has_error = false;  ///< standard errors are beside it
+};
+
 /// Curves of one table that belong together. Units are those of the columns.
 struct Chart {
   /// The course of a run, or one number of every job of a sweep along what the sweep runs through.
@@ -61,6 +68,7 @@ struct Observable {
   std::string
       table;  ///< its name; followed by `_` and a group of particles if there is one for each
   std::string what;  ///< a sentence
+  std::vector<ColumnKind> columns = {};
   Needs needs = {};
   std::vector<Chart> charts = {};
   bool has_groups = false;

@@ -101,6 +101,12 @@ Observable order_table(Needs needs, std::vector<Curve> curves, Chart director) {
                     .scale = Chart::Scale::from_zero};
   return {.table = "order",
           .what = "Nematic order and director of single frames; in the plane also hexatic order.",
+          .columns = {{"time", "time", "time of the frame"},
+                      {"nematic", "1",
+                       "S = |⟨exp(2iθ)⟩|, in space (3λ − 1)/2, λ the largest eigenvalue of ⟨u uᵀ⟩"},
+                      {"director", "rad", "its angle (in the plane)"},
+                      {"director_*", "1", "its components (in space)"},
+                      {"hexatic", "1", "|⟨ψ₆⟩|, neighbours by Voronoi cells (in the plane)"}},
           .needs = needs,
           .charts = {order, std::move(director)}};
 }

@@ -112,19 +112,26 @@ FrameObservableType<2> orientation_observable() {
                     .x = "angle",
                     .x_symbol = "θ − θ of the director",
                     .references = {{"by_chance", "by chance"}}};
-  return {{{.table = "orientation_distribution",
-            .what = "Density of the angles of the long axes from the director of their frame.",
-            .needs = {.rotors = true, .averages = true},
-            .charts = {chart}}},
-          [](const Configuration2& first, const StructureOptions&) {
-            return std::make_unique<AngleDistribution>(first);
-          }};
+  return {
+      {{.table = "orientation_distribution",
+        .what = "Density of the angles of the long axes from the director of their frame.",
+        .columns = {{"angle", "rad", "from the director"},
+                    {"density", "1/rad", "density of the angles", true},
+                    {"by_chance", "1/rad", "(1 + 2S cos(2 angle))/π, S of as many random angles"}},
+        .needs = {.rotors = true, .averages = true},
+        .charts = {chart}}},
+      [](const Configuration2& first, const StructureOptions&) {
+        return std::make_unique<AngleDistribution>(first);
+      }};
 }
 
 template <>
 FrameObservableType<3> orientation_observable() {
   return {{{.table = "orientation_tensor",
             .what = "Mean second-rank tensor of the axes, with its eigenvalues and eigenvectors.",
+            .columns = {{"t_*", "1", "a row of T = ⟨w wᵀ⟩ a line", true},
+                        {"eigenvalue", "1", "of T, ascending"},
+                        {"eigenvector_*", "1", "of T"}},
             .needs = {.rotors = true, .averages = true}}},
           [](const Configuration3&, const StructureOptions&) {
             return std::make_unique<TensorAverage>();

@@ -125,11 +125,21 @@ FrameObservableType<Dim> pair_correlation_observable() {
   return {{{.table = "pair_correlation",
             .what = "Pair correlations of the centres, total and of pairs of species, and of the "
                     "orientations, against the distance.",
+            .columns = {{"r", "length", "distance of the centres"},
+                        {"g", "1", "pairs in a bin, over those of an ideal gas", true},
+                        {"g_#", "1",
+                         "⟨cos n(θ_i − θ_j)⟩, in space ⟨P_n(u_i·u_j)⟩, of the pairs at r", true},
+                        {"g_*_*", "1", "g of a pair of species", true}},
             .needs = {.averages = true},
             .charts = {chart}},
            {.table = "pair_correlation_by_angle",
             .what = "Pair correlation against the distance, by the angle between the separation "
                     "and the axis of the first particle.",
+            .columns = {{"r", "length", "distance of the centres"},
+                        {Dim == 2 ? "g_theta_#" : "g_cos_theta_#", "1",
+                         Dim == 2 ? "of pairs with θ around so many degrees"
+                                  : "of pairs with cos θ around so many hundredths",
+                         true}},
             .needs = {.rotors = true, .averages = true},
             .charts = {by_angle}}},
           [](const Configuration<Dim>& first, const StructureOptions& options) {

@@ -131,6 +131,11 @@ FrameObservableType<Dim> structure_factor_observable() {
       {{.table = "structure_factor",
         .what = "Structure factors against the wave number, total and of pairs of species; in the "
                 "plane also that of the orientations.",
+        .columns = {{"q", "1/length", "wave number of the shell"},
+                    {"modes", "1", "wave vectors, q and −q counted once"},
+                    {"s", "1", "⟨|Σ exp(iq·r_j)|²⟩/N", true},
+                    {"s_*_*", "1", "Re⟨ρ_A(q) ρ_B(−q)⟩/√(N_A N_B)", true},
+                    {"s_orientation", "1", "⟨|Σ exp(2iθ_j + iq·r_j)|²⟩/R (in the plane)", true}},
         .needs = {.averages = true},
         .charts = {chart}}},
       [](const Configuration<Dim>& first, const StructureOptions& options) {

@@ -62,13 +62,17 @@ FrameObservableType<3> two_point_observable() {
                     .scale = Chart::Scale::from_zero,
                     .x = "r",
                     .x_symbol = "r"};
-  return {{{.table = "two_point",
-            .what = "Two-point probability and lineal path of the particles, against the distance.",
-            .needs = {.averages = true},
-            .charts = {chart}}},
-          [](const Configuration3& first, const StructureOptions&) {
-            return std::make_unique<TwoPointObservable>(first);
-          }};
+  return {
+      {{.table = "two_point",
+        .what = "Two-point probability and lineal path of the particles, against the distance.",
+        .columns = {{"r", "length", "distance"},
+                    {"s2", "1", "probability that two points lie in particles", true},
+                    {"lineal_path_*", "1", "probability that a segment along an axis does", true}},
+        .needs = {.averages = true},
+        .charts = {chart}}},
+      [](const Configuration3& first, const StructureOptions&) {
+        return std::make_unique<TwoPointObservable>(first);
+      }};
 }
 
 }  // namespace vitrel

@@ -113,10 +113,16 @@ FrameObservableType<Dim> velocity_observable() {
   const Needs needs{.velocities = true, .averages = true};
   return {{{.table = "velocities",
             .what = "Temperature and second Sonine coefficient of the velocities of single frames.",
+            .columns = {{"time", "time", "time of the frame"},
+                        {"temperature", "kT", "⟨m v²⟩/d"},
+                        {"a_2", "1", "d⟨m²v⁴⟩/((d + 2)⟨m v²⟩²) − 1"}},
             .needs = needs,
             .charts = {sonine}},
            {.table = "velocity_distribution",
             .what = "Density of the components of the velocities, in units of their deviation.",
+            .columns = {{"component", "1", "c, a component of √(m/T) v"},
+                        {"density", "1", "density of c", true},
+                        {"gaussian", "1", "exp(−c²/2)/√(2π)"}},
             .needs = needs,
             .charts = {distribution}}},
           [](const Configuration<Dim>&, const StructureOptions&) {

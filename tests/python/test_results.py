@@ -1,5 +1,6 @@
 """Results: tables, charts, pages."""
 
+import re
 import subprocess
 
 import h5py
@@ -29,6 +30,65 @@ def test_results_are_those_of_the_command_line(run, tmp_path, vitrel_program):
         for name, table in run.results.items():
             for column in table.values():
                 assert numpy.array_equal(file[name][column.name][()], column.value, equal_nan=True)
+
+
+def columns_of_the_page(program):
+    """For every table of the page, the pattern of each of its columns with its error and unit."""
+    page = subprocess.run([program, "analyze", "--list"], check=True, capture_output=True, text=True).stdout
+    tables = {}
+    for line in page.splitlines():
+        if heading := re.match(r"## `(\w+)(_<group>)?`", line):
+            table = tables.setdefault(heading[1] + (r"_\w+" if heading[2] else ""), set())
+        elif column := re.match(r"- `([\w#*]+)`( ±)?( \((.+?)\))?: ", line):
+            table.add((column[1], bool(column[2]), column[4] or "1"))
+    return tables
+
+
+def matches(pattern, text):
+    return re.fullmatch(re.escape(pattern).replace(r"\#", r"\d+").replace(r"\*", r"\w+"), text)
+
+
+def mixture_with_everything(path, dimension, shapes):
+    path.write_text(f"""
+[system]
+dimension = {dimension}
+particles = 60
+packing_fraction = 0.2
+[[species]]
+name = "A"
+fraction = 0.5
+{shapes[0]}
+[[species]]
+name = "B"
+fraction = 0.5
+{shapes[1]}
+[dynamics]
+equilibration = 0
+duration = 20
+[output]
+velocities = true
+samples = {{ spacing = "linear", interval = 0.1 }}
+correlations = {{ interval = 0.1 }}
+[analysis]
+waiting_times = [0, 5]
+""", encoding="utf-8")
+    return path
+
+
+def test_the_page_of_tables_describes_every_column_and_no_other(tmp_path, vitrel_program):
+    described, found = columns_of_the_page(vitrel_program), set()
+    for dimension, shapes in (2, ["aspect_ratio = 2", "aspect_ratio = 1"]), (3, ["semi_axes = [1.5, 1, 0.7]"] * 2):
+        file = tmp_path / f"{dimension}.h5"
+        parameters = mixture_with_everything(tmp_path / f"{dimension}.toml", dimension, shapes)
+        subprocess.run([vitrel_program, "run", parameters, "-o", file, "-q"], check=True)
+        for name, table in vitrel.open(file).results.items():
+            kinds = [(kind, column) for kind, columns in described.items() if re.fullmatch(kind, name) for column in columns]
+            for column in table.values():
+                its = [(kind, (pattern, error, unit)) for kind, (pattern, error, unit) in kinds
+                       if matches(pattern, column.name) and matches(unit, column.unit) and error == (column.error is not None)]
+                assert its, f"{name}: {column.name} in {column.unit}"
+                found.update(its)
+    assert found == {(kind, column) for kind, columns in described.items() for column in columns}
 
 
 def test_columns_have_errors_and_units(run):

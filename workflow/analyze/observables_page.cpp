@@ -21,14 +21,10 @@ std::string needs_text(const Needs& needs) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string chart_text(const Chart& chart) {
-  return fmt::format("{}: {} against {}", chart.heading, chart.symbol, chart.x_symbol);
-}
-
-std::string charts_text(const std::vector<Chart>& charts) {
-  std::vector<std::string> texts;
-  for (const Chart& chart : charts) texts.push_back(chart_text(chart));
-  return fmt::format("{}", fmt::join(texts, "; "));
+std::string column_text(const ColumnKind& column) {
+  const std::string unit = column.unit == "1" ? "" : " (" + column.unit + ")";
+  return fmt::format("- `{}`{}{}: {}\n", column.name, column.has_error ? " ±" : "", unit,
+                     column.what);
 }
 
 /// The lines of a table, in the plane, in space or, if `where` is empty, in both.
@@ -38,7 +34,7 @@ std::string lines(const Observable& observable, const std::string& where) {
     items += fmt::format("- also called `{}`\n", fmt::join(observable.also, "`, `"));
   if (const std::string needs = needs_text(observable.needs); !needs.empty())
     items += "- needs " + needs + "\n";
-  if (!observable.charts.empty()) items += "- drawn as " + charts_text(observable.charts) + "\n";
+  for (const ColumnKind& column : observable.columns) items += column_text(column);
   return where + observable.what + (items.empty() ? "\n" : "\n\n") + items;
 }
 
@@ -66,11 +62,16 @@ std::string observables_page() {
       "# Tables of `vitrel analyze`\n\n"
       "`vitrel analyze --list` prints this page. A table is there if the run has what it needs; "
       "those of groups\n"
-      "of particles are there for all and, in mixtures, for every species. Columns, units and "
-      "conventions are in\n"
-      "the attributes of the HDF5 file and in `columns.csv`. `--only` and `analysis.only` choose "
-      "tables by these names,\n"
-      "without the group.\n";
+      "of particles are there for all and, in mixtures, for every species. `--only` and "
+      "`analysis.only` choose tables by\n"
+      "these names, without the group.\n\n"
+      "In names of columns `#` is any number and `*` any text; in units `^*` is the power of the "
+      "dimension d. Averages\n"
+      "⟨…⟩ are over particles and origins of time or frames. A column with ± has its standard "
+      "error in `<column>_error`,\n"
+      "from blocks of the run ([units and errors](units.md)). All conventions are in the "
+      "attributes of the HDF5 file and in\n"
+      "`columns.csv`.\n";
   const std::vector<Observable> plane = observables(2), space = observables(3);
   for (const Observable& observable : plane)
     page += section(observable, listed(space, observable.table));
