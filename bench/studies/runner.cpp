@@ -158,7 +158,9 @@ std::string study_page(const Study& study, const Json& numbers) {
                  {"uplot", shared("vendor/uplot/uPlot.iife.min.js")},
                  {"common", shared("page/common.js")},
                  {"vector", shared("page/vector.js")},
+                 {"axes", shared("page/axes.js")},
                  {"charts", shared("page/charts.js")},
+                 {"tables", shared("page/tables.js")},
                  {"script", std::string(asset("pages/bench.js"))}});
 }
 

@@ -257,9 +257,7 @@ TEST(SolidsInMotion, ShareTheirEnergyEvenly) {
         translation += sums.translational_energy;
       }
     } sum(rotation, translation);
-    std::vector<double> times;
-    for (int k = 0; k < 100; ++k) times.push_back(k);
-    run(state, {}, {times, 100, &sum, {}}, {});
+    run(state, {}, {linear_times(1, 99), 100, &sum, {}}, {});
     const double n = static_cast<double>(start.size());
     const double wanted = of.rotations * n / (3 * (n - 1));
     // Fluctuations of the ratio per sample: √(2/f) of some 600 degrees of freedom each; samples hardly

@@ -59,11 +59,13 @@ void expect_the_same_moves(const Configuration<Dim>& start) {
 /// Chains stop at a slightly different distance from the next particle.
 template <class Plain, int Dim>
 void expect_hard_chains(Configuration<Dim> c) {
-  EventChain<Plain> chains(c, {.contacts = 10, .exchanges = exchanges}, 6);
-  sweep(chains, 20);
+  constexpr std::uint64_t number = 200, rotations = 1000;
+  EventChain<Plain> chains(c, {.exchanges = exchanges}, 6);
+  chains.set_plan({number, c.box.lengths().maxCoeff(), rotations, 0.2});
+  chains.sweep();
   EXPECT_TRUE(exact_check(c).clean());
   if (c.size() > 1) {
-    EXPECT_GT(chains.counts().contacts, c.size());
+    EXPECT_GT(chains.counts().contacts, number / 2);
   }
 }
 
