@@ -99,7 +99,8 @@ void add_imported(std::vector<KnownSpecies>& known, const ImportOptions& import)
   for (const ImportOptions::Kind& kind : import.species) {
     auto one = std::ranges::find(known, kind.name, &KnownSpecies::name);
     if (one == known.end()) one = known.insert(known.end(), KnownSpecies{kind.name});
-    if (kind.diameter) one->half_lengths = Vec3::Constant(0.5 * *kind.diameter / import.length_unit);
+    if (kind.diameter)
+      one->half_lengths = Vec3::Constant(0.5 * *kind.diameter / import.length_unit);
     if (kind.semi_axes) {
       one->half_lengths = Vec3(Vec3::Zero());
       for (std::size_t k = 0; k < kind.semi_axes->size(); ++k)
