@@ -51,7 +51,7 @@ Configuration<Dim> state_of(const Arrays& given) {
   frame.dimension = Dim;
   const std::size_t n = require_rows(given.position, Dim, "position");
   frame.position = rows_in_space<Dim>(given.position, "position", n);
-  frame.semi_axes = rows_in_space<Dim>(given.semi_axes, "semi_axes", n);
+  frame.half_lengths = rows_in_space<Dim>(given.semi_axes, "semi_axes", n);
   if (given.box.ndim() != 1 || given.box.shape(0) != Dim)
     throw UserError(fmt::format("box must have the shape ({},)", Dim));
   frame.box = in_space(Eigen::Map<const Vec<Dim>>(given.box.data()));

@@ -44,14 +44,6 @@ const std::string soft =
     "[output]\nvelocities = true\n"
     "samples = { spacing = \"linear\", interval = 1 }\n";
 const std::string sweep = plane + "[sweep.grid]\n\"system.seed\" = [1, 2]\n";
-/// Its few frames leave little to be analysed besides the correlations that it measures itself.
-const std::string correlated =
-    "[system]\nparticles = 12\npacking_fraction = 0.4\n"
-    "[[species]]\nname = \"A\"\nfraction = 0.5\naspect_ratio = 2\n"
-    "[[species]]\nname = \"B\"\nfraction = 0.5\naspect_ratio = 1\nsize = 0.8\n"
-    "[dynamics]\nequilibration = 0\nduration = 2\n"
-    "[output]\n"
-    "samples = { spacing = \"linear\", interval = 2 }\ncorrelations = { interval = 0.1 }\n";
 const char* const pair =
     "[[body]]\nsemi_axes = [2, 1]\nposition = [0, 0]\nangle = 0.1\n"
     "velocity = [1, 0]\nangular_velocity = 0.2\n"
@@ -197,12 +189,11 @@ Target checkpoint() {
 }
 
 Target correlations() {
-  make_run("correlated", correlated);
-  return {"correlated.h5.correlations.h5",
+  make_run("plane", plane);
+  return {"plane.h5.correlations.h5",
           Kind::hdf5,
-          contents({"correlated.h5.correlations.h5"}),
-          {{"analyze", "correlated.h5", "-o", "results.h5", "-q", "--set",
-            "analysis.structure.frames=0"}}};
+          contents({"plane.h5.correlations.h5"}),
+          {{"analyze", "plane.h5", "-o", "results.h5", "-q", "--only", "on_the_fly"}}};
 }
 
 }  // namespace
