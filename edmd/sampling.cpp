@@ -23,6 +23,7 @@ double logarithmic_time(std::uint64_t k, double first, int per_decade) {
 }  // namespace
 
 double SampleTimes::operator[](std::uint64_t k) const {
+  if (!listed_.empty()) return listed_[k];
   if (k == 0) return 0;
   const double time = per_decade_ == 0 ? interval_ * static_cast<double>(k)
                                        : logarithmic_time(k - 1, interval_, per_decade_);

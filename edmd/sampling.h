@@ -1,14 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace vitrel {
 
-/// The times of the samples of a run, in ascending order. They are computed when they are asked for: there may be 10⁸.
+/// The times of the samples of a run, in ascending order. Those of the functions below are computed when they are asked
+/// for: there may be 10⁸.
 class SampleTimes {
  public:
   /// No samples.
   SampleTimes() = default;
+  SampleTimes(std::vector<double> listed) : listed_(std::move(listed)), size_(listed_.size()) {}
 
   std::uint64_t size() const { return size_; }
   /// The time of sample k < size().
@@ -18,6 +22,7 @@ class SampleTimes {
   friend SampleTimes linear_times(double interval, double duration);
   friend SampleTimes logarithmic_times(double first, int per_decade, double duration);
 
+  std::vector<double> listed_;
   double interval_ = 0;  ///< the first time after 0
   double duration_ = 0;
   int per_decade_ = 0;  ///< 0: evenly spaced

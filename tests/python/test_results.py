@@ -81,7 +81,7 @@ def test_the_page_of_tables_describes_every_column_and_no_other(tmp_path, vitrel
         file = tmp_path / f"{dimension}.h5"
         parameters = mixture_with_everything(tmp_path / f"{dimension}.toml", dimension, shapes)
         subprocess.run([vitrel_program, "run", parameters, "-o", file, "-q"], check=True)
-        for name, table in vitrel.open(file).results.items():
+        for name, table in vitrel.load(file).results.items():
             kinds = [(kind, column) for kind, columns in described.items() if re.fullmatch(kind, name) for column in columns]
             for column in table.values():
                 its = [(kind, (pattern, error, unit)) for kind, (pattern, error, unit) in kinds
