@@ -424,7 +424,7 @@ TEST(OwnStates, ParticlesInTheParameterFileAreCheckedWithTheirPlaces) {
           "velocities' has 1 numbers for particle 1, but must have 2");
   refused("quaternions = [[1, 0, 0, 0], [1, 0, 0, 0]]\n", "is for three dimensions; give angles");
   refused("file = \"a.csv\"\n", "'prepare.stage.0.file' excludes positions");
-  refused("semi_axes = [[1, 0.5], [1, 2]]\n", "particle 1 has the semi-axes 1 and 2");
+  refused("semi_axes = [[1, 0.5], [1, 2]]\n", "particle 1 has the semi-axes 1, 2");
   folder.write("p.toml", "[[prepare.stage]]\nmethod = \"state\"\n");
   expect_refusal(run(folder.path(), {"prepare", "p.toml", "-o", "a.h5", "-q"}), 2,
                  "'prepare.stage.0.file' is missing; give a file, or positions");
