@@ -69,32 +69,48 @@ struct TwoPointGrid::Transforms {
   std::optional<FourierPlan> forward, backward;
 };
 
-/// The shell of every shift of the grid, and the mean distance and number of the shifts of a shell.
+/// The shell of every shift of the grid, and the mean distance and number of the shifts of a shell. A shift by n − k nodes
+/// is one by k in the opposite direction, so that an eighth of the shifts tells the shells of all.
 struct TwoPointGrid::Shells {
   static constexpr std::uint16_t beyond = 0xffff;
 
-  Shells(const Vec3& lengths, const Vec3& spacing, const std::array<int, 3>& n) {
+  Shells(const Vec3& lengths, const Vec3& spacing, const std::array<int, 3>& n) : count(n) {
     const double width = spacing.maxCoeff(), range = 0.5 * lengths.minCoeff();
-    const auto nearest = [&](int node, int axis) {
-      return std::min(node, n[axis] - node) * spacing[axis];
-    };
-    for (int x = 0; x < n[0]; ++x)
-      for (int y = 0; y < n[1]; ++y)
-        for (int z = 0; z < n[2]; ++z)
-          add(Vec3(nearest(x, 0), nearest(y, 1), nearest(z, 2)).norm(), width, range);
+    const auto ways = [&](int k, int axis) { return k == 0 || 2 * k == n[axis] ? 1 : 2; };
+    for (int x = 0; x <= n[0] / 2; ++x)
+      for (int y = 0; y <= n[1] / 2; ++y)
+        for (int z = 0; z <= n[2] / 2; ++z)
+          add(spacing.cwiseProduct(Vec3(x, y, z)).norm(), ways(x, 0) * ways(y, 1) * ways(z, 2),
+              width, range);
     for (std::size_t k = 0; k < distance.size(); ++k) distance[k] /= shifts[k];
   }
 
-  void add(double r, double width, double range) {
+  void add(double r, int number, double width, double range) {
     const auto shell = static_cast<std::size_t>(std::lround(r / width));
     of_shift.push_back(r > range ? beyond : static_cast<std::uint16_t>(shell));
     if (r > range) return;
     if (shell >= distance.size()) distance.resize(shell + 1), shifts.resize(shell + 1);
-    distance[shell] += r;
-    shifts[shell] += 1;
+    distance[shell] += number * r;
+    shifts[shell] += number;
   }
 
-  std::vector<std::uint16_t> of_shift;
+  /// Calls visit(shell, number of the shift in the grid) for all shifts in range.
+  void for_each_shift(const auto& visit) const {
+    const auto nearest = [this](int k, int axis) { return std::min(k, count[axis] - k); };
+    std::size_t shift = 0;
+    for (int x = 0; x < count[0]; ++x)
+      for (int y = 0; y < count[1]; ++y) {
+        const std::size_t row = static_cast<std::size_t>(nearest(x, 0)) * (count[1] / 2 + 1) +
+                                static_cast<std::size_t>(nearest(y, 1));
+        const std::uint16_t* const of_row = &of_shift[row * (count[2] / 2 + 1)];
+        for (int z = 0; z < count[2]; ++z, ++shift)
+          if (const std::uint16_t shell = of_row[nearest(z, 2)]; shell != beyond)
+            visit(shell, shift);
+      }
+  }
+
+  std::array<int, 3> count;
+  std::vector<std::uint16_t> of_shift;  // by up to half of the nodes
   std::vector<double> distance, shifts;
 };
 
@@ -136,8 +152,7 @@ std::vector<double> TwoPointGrid::probabilities(const Configuration3& configurat
          configuration.position[i]);
   transforms_->correlate(grid.get());
   std::vector<double> sum(shells_->distance.size(), 0.0);
-  for (std::size_t k = 0; k < transforms_->points; ++k)
-    if (shells_->of_shift[k] != Shells::beyond) sum[shells_->of_shift[k]] += grid[k];
+  shells_->for_each_shift([&](std::size_t shell, std::size_t k) { sum[shell] += grid[k]; });
   const auto points = static_cast<double>(transforms_->points);
   for (std::size_t k = 0; k < sum.size(); ++k) sum[k] /= shells_->shifts[k] * points * points;
   return sum;
