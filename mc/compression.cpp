@@ -1,13 +1,12 @@
 #include "mc/compression.h"
 
-#include <algorithm>
 #include <numeric>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/elementary.h"
 #include "mc/hard_core.h"
+#include "mc/pressure_sampler.h"
 
 namespace vitrel {
 

@@ -6,7 +6,6 @@
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 #include "mc/options.h"
-#include "mc/pressure_sampler.h"
 #include "mc/sweep_state.h"
 
 namespace vitrel {

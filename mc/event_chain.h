@@ -53,10 +53,10 @@ struct ChainState {
   std::uint64_t tuned_chains = 0, tuned_contacts = 0;  ///< at the last adaptation
 };
 
-/// Event-chain Monte Carlo of hard ellipses or ellipsoids at constant N, box and temperature, on one thread.
+/// Event-chain Monte Carlo of hard bodies at constant N, box and temperature, on one thread.
 ///
 /// A chain: a random particle moves forwards along x, y or, in space, z, each with equal probability, until it touches
-/// another (ellipse_free_path_batch.h, ellipsoid_free_path_batch.h, round_free_path_batch.h). That one continues in the
+/// another (the free paths of resting_bodies.h, or round_free_path_batch.h). That one continues in the
 /// same direction, until the paths add up to the length of the chain. Nothing is rejected. Orientations change by trial
 /// rotations, as in sampler.h.
 ///

@@ -24,9 +24,11 @@ namespace vitrel {
 /// made if all particles then keep the hard-core margin (hard_core.h) to each other, and otherwise leaves everything as
 /// it is. Whoever proposes moves with the right probabilities samples hard states.
 ///
-/// Cells have no capacity limit. Overlaps are decided by proofs (ellipse_overlap_batch.h, ellipsoid_overlap_batch.h)
-/// that depend on the state only, to the rounding of the margin.
-/// `Shape` is one with resting bodies (resting_bodies.h), and is made of the shape that the configuration knows.
+/// Cells have no capacity limit. Overlaps are decided by proofs (ellipse_overlap_batch.h, ellipsoid_overlap_batch.h,
+/// pair_overlaps.h) that depend on the state only, to the rounding of the margin.
+///
+/// `Shape` is constructed from the shape of the configuration, and has the same radii, roundness and `fits_into`; overlaps
+/// and free paths are its own (resting_bodies.h).
 template <class Shape>
 class HardParticles {
  public:

@@ -8,18 +8,11 @@
 #include "core/state/configuration.h"
 #include "mc/options.h"
 #include "mc/sampler.h"
+#include "mc/sweep_state.h"
 
 namespace vitrel {
 
-/// The state of the box trials.
-struct BoxState {
-  StepSize step{0.01};  ///< of ln V
-  /// L_y/L_x and L_z/L_x; 0: those of the configuration given.
-  double aspect_at_start = 0, depth_at_start = 0;
-  std::uint64_t tried = 0, accepted = 0;  ///< since the start
-};
-
-/// Monte Carlo of hard ellipses or ellipsoids at constant N, pressure and temperature (Wood, 1968).
+/// Monte Carlo of hard bodies at constant N, pressure and temperature (Wood, 1968).
 ///
 /// One sweep is two box trials, each of which costs about half as much as a sweep of the Sampler, and such a sweep. In
 /// a box trial ln V changes by a uniform amount within ± its step, and all positions scale; shapes and angles do not

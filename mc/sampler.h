@@ -20,7 +20,7 @@
 
 namespace vitrel {
 
-/// Metropolis Monte Carlo of hard ellipses or ellipsoids at constant N, box and temperature, on any number of threads.
+/// Metropolis Monte Carlo of hard bodies at constant N, box and temperature, on any number of threads.
 ///
 /// A trial picks a particle and, if it is not round, translation or rotation with equal probability. The displacement
 /// is uniform in a square (cube) of half side `translation`, the rotation uniform within ± `rotation`. In space an

@@ -10,8 +10,8 @@
 
 namespace vitrel {
 
-/// Cell lists for SIMD batches (`Batch` of resting_bodies.h): the particles of a cell fill the lanes of a linked list of groups, all but the last
-/// group full. A cell has no capacity limit, and a test reads few groups.
+/// Cell lists for SIMD batches (`Batch` of resting_bodies.h): the particles of a cell fill the lanes of a linked list of
+/// groups, all but the last group full. A cell has no capacity limit, and a test reads few groups.
 ///
 /// The first group of a cell belongs to it; the others come from the free list of the cell's domain. A domain of n
 /// particles needs at most n/simd_width of those, wherever its particles are: ⌈k/simd_width⌉ − 1 < k/simd_width for a

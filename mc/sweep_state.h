@@ -75,4 +75,12 @@ struct SweepState {
 /// Sweeps between two adaptations of the step sizes.
 inline constexpr std::uint64_t sweeps_per_tuning = 20;
 
+/// The state of the box trials.
+struct BoxState {
+  StepSize step{0.01};  ///< of ln V
+  /// L_y/L_x and L_z/L_x; 0: those of the configuration given.
+  double aspect_at_start = 0, depth_at_start = 0;
+  std::uint64_t tried = 0, accepted = 0;  ///< since the start
+};
+
 }  // namespace vitrel

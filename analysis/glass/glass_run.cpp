@@ -70,6 +70,8 @@ GlassRun judge_glass_run(const GlassRunData& data) {
   run.packing_fraction = data.packing_fraction;
   run.seed = data.seed;
   run.rotors = data.rotors;
+  run.nematic_by_chance =
+      data.rotors > 0 ? nematic_order_by_chance(data.rotors, data.dimension) : unknown;
   run.duration = data.duration;
   run.wave_number = data.wave_number;
   run.relative_to_cage = data.relative_to_cage;

@@ -52,9 +52,10 @@ struct GlassRun {
   std::uint64_t seed;
   std::size_t rotors;
   double duration;
-  double wave_number;      ///< q of τ_α
-  Estimate nematic_order;  ///< S
-  double plateau;          ///< of L_2, by order; 0 if not nematic
+  double wave_number;        ///< q of τ_α
+  Estimate nematic_order;    ///< S
+  double nematic_by_chance;  ///< S of as many random axes; NaN without rotors
+  double plateau;            ///< of L_2, by order; 0 if not nematic
   OrientationKind orientation;
   bool relative_to_cage;       ///< whether τ_α is: so it is in the plane (cage_relative.h)
   RelaxationTime translation;  ///< τ_α: F_s(q, t) = 1/e

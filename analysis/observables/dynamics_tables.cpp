@@ -128,11 +128,12 @@ Observable displacement_observable(int dimension) {
               "squared rotations, fourth powers and non-Gaussian parameters.",
           .columns = {{"time", "time", "t, the time difference"},
                       {"msd", "length^2", "⟨|Δr|²⟩", true},
-                      {"msd_parallel", "length^2", "⟨(Δr·u(0))²⟩", true},
-                      {"msd_perpendicular", "length^2", "⟨|Δr|²⟩ − ⟨(Δr·u(0))²⟩", true},
+                      {"msd_parallel", "length^2", "⟨(Δr·u(0))²⟩ of the rotors", true},
+                      {"msd_perpendicular", "length^2", "⟨|Δr|² − (Δr·u(0))²⟩ of the rotors", true},
                       {"quartic", "length^4", "⟨|Δr|⁴⟩", true},
                       {"non_gaussian", "1", "d⟨|Δr|⁴⟩/((d + 2)⟨|Δr|²⟩²) − 1", true},
-                      {"msr", "rad^2", "⟨|Δφ|²⟩, φ the angle or the rotation vector", true},
+                      {"msr", "rad^2", "⟨|Δφ|²⟩ of the rotors, φ the angle or the rotation vector",
+                       true},
                       {"quartic_rotation", "rad^4", "⟨|Δφ|⁴⟩", true},
                       {"non_gaussian_rotation", "1",
                        "n⟨|Δφ|⁴⟩/((n + 2)⟨|Δφ|²⟩²) − 1, n = 1 in the plane, 3 in space", true},
@@ -355,14 +356,17 @@ Table waiting_time_table(const std::vector<AgedMotion>& ageing) {
 }
 
 Observable waiting_time_observable(int dimension) {
-  Observable observable{.table = "waiting_times",
-                        .what = "Waiting times of the ageing.",
-                        .columns = {{"index", "1", "k"},
-                                    {"waiting_time", "time", "t_w"},
-                                    {"nematic_length", "length",
-                                     "beyond which ⟨cos 2(θ_i − θ_j)⟩ < 1/e (in the plane)"}},
-                        .needs = {.motion = true, .waiting_times = true}};
-  if (dimension != 2) return observable;
+  Observable observable{
+      .table = "waiting_times",
+      .what = "Waiting times of the ageing.",
+      .columns = {{"index", "1", "k"},
+                  {"waiting_time", "time", "t_w"},
+                  {"nematic_length", "length", "beyond it ⟨cos 2(θ_i − θ_j)⟩ stays below 1/e"}},
+      .needs = {.motion = true, .waiting_times = true}};
+  if (dimension != 2) {
+    observable.columns.pop_back();
+    return observable;
+  }
   observable.what = "Waiting times of the ageing, and the length of nematic domains at them.";
   observable.charts = {{.section = Chart::Section::course,
                         .heading = "Length of nematic domains",

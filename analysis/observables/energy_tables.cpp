@@ -51,7 +51,7 @@ std::vector<Observable> energy_observables() {
            .charts = {energy}},
           {.table = "compressibility_factor",
            .what = "Compressibility factor from the virial of the collisions between two samples.",
-           .columns = {{"time", "time", "end of the interval"},
+           .columns = {{"time", "time", "middle of the interval between two samples"},
                        {"z", "1", "Z = PV/(N kT), of the virial since the sample before"}},
            .needs = {.motion = true},
            .charts = {z}}};

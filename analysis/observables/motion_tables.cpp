@@ -38,7 +38,7 @@ std::vector<Observable> velocity_observables() {
       {.table = "velocity_spectrum",
        .what = "Spectra (2/pi) int C(t) cos(wt) dt of these autocorrelations, for evenly sampled "
                "runs: the density of states of vibrations; the integral over w is 1.",
-       .columns = {{"frequency", "rad/time", "w"},
+       .columns = {{"frequency", "rad/time", "angular frequency w"},
                    {"g", "time/rad", "(2/π) ∫ C(t) cos(wt) dt", true},
                    {"g_angular", "time/rad", "the same of ω", true}},
        .needs = needs,

@@ -29,31 +29,35 @@ Chart of_study(const char* heading, const char* symbol, const char* column,
 }
 
 Observable summary_observable() {
-  return {.table = "summary",
-          .what =
-              "One row: packing fraction, and averages over the run, of the compressibility "
-              "factor, energies, diffusion coefficients and the shear viscosity.",
-          .columns = {{"particles", "1", "N"},
-                      {"rotors", "1", "R, particles that are not round"},
-                      {"rotations", "1", "rotational degrees of freedom"},
-                      {"frames", "1", "frames of the run"},
-                      {"duration", "time", "of the run"},
-                      {"collisions", "1", "of pairs"},
-                      {"packing_fraction", "1", "φ = Σ v_i/V"},
-                      {"box_*", "length", "sides of the box (in space)"},
-                      {"translational_energy", "kT", "⟨Σ m v²/2⟩/N", true},
-                      {"rotational_energy", "kT", "⟨Σ ω·I ω/2⟩/N", true},
-                      {"compressibility_factor", "1", "Z = PV/(N kT)", true},
-                      {"diffusion", "length^2/time", "D, the slope of ⟨|Δr|²⟩/(2d)", true},
-                      {"rotational_diffusion", "rad^2/time", "D_r, the same of rotations", true},
-                      {"viscosity", "kT time/length^*", "η, the slope of the Helfand moment", true},
-                      {"*_from", "time", "begin of the times of a slope"},
-                      {"*_to", "time", "end of the times of a slope"},
-                      {"hexatic_order", "1", "⟨|ψ₆|⟩ (in the plane)", true},
-                      {"orientation_ratio", "1",
-                       "largest over smallest eigenvalue of the orientation tensor (in space)"},
-                      {"isotropic_ratio", "1", "what as many random axes have"},
-                      {"isotropic_ratio_deviation", "1", "its standard deviation"}}};
+  return {
+      .table = "summary",
+      .what =
+          "One row: packing fraction, and averages over the run, of the compressibility "
+          "factor, energies, diffusion coefficients and the shear viscosity.",
+      .columns = {
+          {"particles", "1", "N"},
+          {"rotors", "1", "R, particles that are not round"},
+          {"rotations", "1", "rotational degrees of freedom"},
+          {"frames", "1", "frames of the run"},
+          {"duration", "time", "of the run"},
+          {"collisions", "1", "of pairs"},
+          {"packing_fraction", "1", "φ = Σ v_i/V"},
+          {"box_*", "length", "sides of the box (in space)"},
+          {"translational_energy", "kT", "⟨Σ m v²/2⟩/N", true},
+          {"rotational_energy", "kT", "⟨Σ ω·I ω/2⟩/N", true},
+          {"compressibility_factor", "1", "Z = PV/(N kT)", true},
+          {"diffusion", "length^2/time", "D, the slope of ⟨|Δr|²⟩/(2d)", true},
+          {"rotational_diffusion", "rad^2/time",
+           "D_r, the slope of ⟨|Δφ|²⟩/(2n), n = 1 in the plane; in space 2, of scalene bodies 3",
+           true},
+          {"viscosity", "kT time/length^*", "η, the slope of the Helfand moment", true},
+          {"*_from", "time", "shortest time difference of a fitted slope"},
+          {"*_to", "time", "longest time difference of a fitted slope"},
+          {"hexatic_order", "1", "mean over frames of |⟨ψ₆⟩| (in the plane)", true},
+          {"orientation_ratio", "1",
+           "largest over smallest eigenvalue of the orientation tensor (in space)"},
+          {"isotropic_ratio", "1", "what as many random axes have (in space)"},
+          {"isotropic_ratio_deviation", "1", "its standard deviation (in space)"}}};
 }
 
 }  // namespace
@@ -156,8 +160,8 @@ std::vector<Observable> observables(int dimension) {
                     {"kind", "1", "which correlation"},
                     {"parameter", "1/length or 1", "its q or n"},
                     {"tau", "time", "τ, when it has fallen to 1/e", true},
-                    {"least", "time", "τ is longer"},
-                    {"most", "time", "τ is shorter"}},
+                    {"least", "time", "a lower bound of τ"},
+                    {"most", "time", "an upper bound of τ"}},
         .needs = {.motion = true}},
        {.table = "relaxation",
         .what = "One row: relaxation times, nematic order, and whether the run was long enough.",
@@ -168,15 +172,16 @@ std::vector<Observable> observables(int dimension) {
                     {"wave_number", "1/length", "q of τ_α"},
                     {"tau_translation", "time",
                      "τ_α: F_s(q, τ) = 1/e, in the plane relative to the cage", true},
-                    {"tau_rotation", "time", "τ₂: L₂ = 1/e, in space ⟨P₂⟩", true},
+                    {"tau_rotation", "time",
+                     "τ₂: L₂ = 1/e, in space ⟨P₂⟩, in a nematic its connected part", true},
                     {"verdict", "1", "whether the run was equilibrated"},
                     {"tests", "1", "how many tests say so"},
-                    {"verdict_translation", "1", "whatever rotation does"},
+                    {"verdict_translation", "1", "the same of translation alone"},
                     {"tests_translation", "1", "how many tests say so"},
                     {"nematic_order", "1", "S", true},
                     {"nematic_by_chance", "1", "S of as many random axes"},
                     {"plateau", "1", "of L₂ in a nematic"},
-                    {"orientation", "1", "what becomes of it"}},
+                    {"orientation", "1", "whether orientations relax, are kept by order, or last"}},
         .needs = {.motion = true}}}};
   std::vector<Observable> all;
   for (const std::vector<Observable>& part : parts) all.insert(all.end(), part.begin(), part.end());

@@ -32,7 +32,7 @@ class PlaneOrder final : public FrameObservable<2> {
           "Order of single frames: nematic = |<exp(2 i theta)>|, about sqrt(pi/(4 R)) = {:.3g} for "
           "the {} rotors without any order; director, its angle from -pi/2 to pi/2; hexatic = "
           "|<psi>|, neighbours by Voronoi cells.",
-          nematic_order_by_chance(rotors_), rotors_);
+          nematic_order_by_chance(rotors_, 2), rotors_);
       table.columns.push_back({"nematic", "1", nematic_});
       table.columns.push_back({"director", "rad", director_});
     }
@@ -93,7 +93,9 @@ class SpaceOrder final : public FrameObservable<3> {
   std::array<std::vector<double>, 3> director_;
 };
 
-Observable order_table(Needs needs, std::vector<Curve> curves, Chart director) {
+Observable order_table(Needs needs, std::vector<ColumnKind> columns, std::vector<Curve> curves,
+                       Chart director) {
+  columns.insert(columns.begin(), {"time", "time", "time of the frame"});
   const Chart order{.section = Chart::Section::course,
                     .heading = "Order",
                     .symbol = "order parameter",
@@ -101,12 +103,7 @@ Observable order_table(Needs needs, std::vector<Curve> curves, Chart director) {
                     .scale = Chart::Scale::from_zero};
   return {.table = "order",
           .what = "Nematic order and director of single frames; in the plane also hexatic order.",
-          .columns = {{"time", "time", "time of the frame"},
-                      {"nematic", "1",
-                       "S = |⟨exp(2iθ)⟩|, in space (3λ − 1)/2, λ the largest eigenvalue of ⟨u uᵀ⟩"},
-                      {"director", "rad", "its angle (in the plane)"},
-                      {"director_*", "1", "its components (in space)"},
-                      {"hexatic", "1", "|⟨ψ₆⟩|, neighbours by Voronoi cells (in the plane)"}},
+          .columns = std::move(columns),
           .needs = needs,
           .charts = {order, std::move(director)}};
 }
@@ -123,7 +120,11 @@ FrameObservableType<2> order_observable() {
                        .symbol = "angle of the director, continued beyond ±π/2",
                        .curves = {{"director", "director"}},
                        .is_angle_of_axis = true};
-  return {{order_table({}, {{"nematic", "nematic"}, {"hexatic", "hexatic"}}, director)},
+  return {{order_table({},
+                       {{"nematic", "1", "S = |⟨exp(2iθ)⟩|"},
+                        {"director", "rad", "its angle"},
+                        {"hexatic", "1", "|⟨ψ₆⟩|, neighbours by Voronoi cells"}},
+                       {{"nematic", "nematic"}, {"hexatic", "hexatic"}}, director)},
           [](const Configuration2& first, const StructureOptions&) {
             return std::make_unique<PlaneOrder>(first);
           }};
@@ -135,7 +136,10 @@ FrameObservableType<3> order_observable() {
                        .heading = "Director",
                        .symbol = "components of the director",
                        .curves = {{"director_x", "x"}, {"director_y", "y"}, {"director_z", "z"}}};
-  return {{order_table({.rotors = true}, {{"nematic", "nematic"}}, director)},
+  return {{order_table({.rotors = true},
+                       {{"nematic", "1", "S = (3λ − 1)/2, λ the largest eigenvalue of ⟨u uᵀ⟩"},
+                        {"director_*", "1", "its eigenvector"}},
+                       {{"nematic", "nematic"}}, director)},
           [](const Configuration3& first, const StructureOptions&) {
             return std::make_unique<SpaceOrder>(first);
           }};

@@ -30,7 +30,7 @@ class AngleDistribution final : public FrameObservable<2> {
   std::vector<Table> tables(bool is_even) const override {
     std::vector<double> angle, by_chance;
     const double width = std::numbers::pi / static_cast<double>(angle_bins);
-    const double order = nematic_order_by_chance(rotors_);
+    const double order = nematic_order_by_chance(rotors_, 2);
     for (std::size_t k = 0; k < angle_bins; ++k) {
       angle.push_back((static_cast<double>(k) + 0.5) * width - std::numbers::pi / 2);
       by_chance.push_back((1 + 2 * order * std::cos(2 * angle.back())) / std::numbers::pi);
@@ -129,7 +129,7 @@ template <>
 FrameObservableType<3> orientation_observable() {
   return {{{.table = "orientation_tensor",
             .what = "Mean second-rank tensor of the axes, with its eigenvalues and eigenvectors.",
-            .columns = {{"t_*", "1", "a row of T = ⟨w wᵀ⟩ a line", true},
+            .columns = {{"t_*", "1", "T = ⟨w wᵀ⟩, one row per line", true},
                         {"eigenvalue", "1", "of T, ascending"},
                         {"eigenvector_*", "1", "of T"}},
             .needs = {.rotors = true, .averages = true}}},

@@ -66,8 +66,11 @@ FrameObservableType<3> two_point_observable() {
       {{.table = "two_point",
         .what = "Two-point probability and lineal path of the particles, against the distance.",
         .columns = {{"r", "length", "distance"},
-                    {"s2", "1", "probability that two points lie in particles", true},
-                    {"lineal_path_*", "1", "probability that a segment along an axis does", true}},
+                    {"s2", "1",
+                     "probability that two points at this distance both lie in particles", true},
+                    {"lineal_path_*", "1",
+                     "probability that a segment of this length along x, y or z lies in a particle",
+                     true}},
         .needs = {.averages = true},
         .charts = {chart}}},
       [](const Configuration3& first, const StructureOptions&) {

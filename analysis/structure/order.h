@@ -36,7 +36,7 @@ double nematic_order(const Configuration2& configuration);
 /// √(π/(4R)), the mean length of a random walk of R steps of length 1/R. In three (9/4) √(2/(5πR)), the
 /// mean largest eigenvalue of (3 T − 1)/2 with the fluctuations of T as in isotropic_ratio
 /// (orientation_tensor.h). Good to 1 % from R = 10 and R = 100 on.
-double nematic_order_by_chance(std::size_t rotors, int dimension = 2);
+double nematic_order_by_chance(std::size_t rotors, int dimension);
 
 /// Whether S, averaged over a run, is that of a nematic: above 0.5 (0.4 in three dimensions), and three
 /// times that of chance at least (R rotors of which g always turn together have √g times as much). In two

@@ -110,7 +110,7 @@ struct TwoPointGrid::Shells {
   }
 
   std::array<int, 3> count;
-  std::vector<std::uint16_t> of_shift;  // by up to half of the nodes
+  std::vector<std::uint16_t> of_shift;  // of shifts by up to half of the nodes
   std::vector<double> distance, shifts;
 };
 

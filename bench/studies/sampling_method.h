@@ -10,9 +10,9 @@
 #include "core/io/json.h"
 #include "edmd/brownian.h"
 #include "edmd/engine.h"
-#include "mc/compression.h"
 #include "mc/contact_pressure.h"
 #include "mc/event_chain.h"
+#include "mc/pressure_sampler.h"
 #include "mc/sampler.h"
 
 /// @file

@@ -59,7 +59,7 @@ class EllipseOverlapBatch {
     undecided &= ~verdict.certain;
     return !undecided || clear_by_scalar_tests(group, offset, undecided, scalar_tests);
   }
-  /// The answer for ellipses that still wait: none.
+  /// None wait for a full batch, so the answer is yes.
   bool rest_is_clear(std::uint64_t& /*scalar_tests*/) const { return true; }
 
  private:

@@ -28,7 +28,7 @@ class PairFreePaths {
   using Body = OrientedBody<Shape>;
   using Mask = SimdBatch::Mask;
 
-  /// `bodies` are all particles. Both must outlive the search; `max_length` > 0 limits the path.
+  /// `bodies` are all particles; they and `body` must outlive the search. `max_length` > 0 limits the path.
   PairFreePaths(const Body& body, const Body* bodies, double gap, double max_length)
       : body_(body),
         bodies_(bodies),

@@ -19,7 +19,7 @@ class PairOverlaps {
   /// Bit k is lane k.
   using Lanes = unsigned;
 
-  /// `bodies` are all particles; margin ≥ 0. Both must outlive the test.
+  /// `bodies` are all particles; they and `body` must outlive the test. margin ≥ 0.
   PairOverlaps(const Body& body, const Body* bodies, double margin)
       : body_(body), bodies_(bodies), margin_(margin) {}
 
@@ -43,7 +43,7 @@ class PairOverlaps {
     return true;
   }
 
-  /// The answer for bodies that still wait: none.
+  /// None wait for a full batch, so the answer is yes.
   bool rest_is_clear(std::uint64_t& /*scalar_tests*/) const { return true; }
 
  private:

@@ -56,7 +56,7 @@ struct RestingBodies<Ellipsoid> {
   }
 };
 
-// The functions of oriented_body.h.
+// The functions of oriented_body.h but `support_gap`, which the free paths of these shapes do not need.
 inline bool separated(const OrientedEllipse& one, const OrientedEllipse& two, const Vec2& d,
                       double margin) {
   return separated(one.shape, one.axis, two.shape, two.axis, d, margin);

@@ -12,7 +12,6 @@
 #include "core/io/foreign/foreign_file.h"
 #include "core/io/h5md.h"
 #include "core/state/bounds.h"
-#include "core/state/species.h"
 #include "core/tolerances.h"
 
 namespace vitrel {

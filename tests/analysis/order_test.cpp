@@ -79,7 +79,7 @@ TEST(NematicOrder, OfARandomGasIsThatOfARandomWalk) {
 TEST(NematicOrder, ByChanceIsThatOfARandomGas) {
   double sum = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) sum += nematic_order(gas(50, seed));
-  EXPECT_NEAR(sum / 400, nematic_order_by_chance(50), 5 * std::sqrt((1 - pi / 4) / 50 / 400));
+  EXPECT_NEAR(sum / 400, nematic_order_by_chance(50, 2), 5 * std::sqrt((1 - pi / 4) / 50 / 400));
 }
 
 // Q from its definition, ⟨2 u uᵀ − 1⟩, and the director as its eigenvector to + S.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/state/check.h"
+#include "mc/pressure_sampler.h"
 #include "tests/support/fluids.h"
 #include "tests/support/statistics.h"
 

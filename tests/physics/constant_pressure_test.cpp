@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/reference/literature.h"
-#include "mc/compression.h"
+#include "mc/pressure_sampler.h"
 #include "tests/support/fluids.h"
 #include "tests/support/statistics.h"
 

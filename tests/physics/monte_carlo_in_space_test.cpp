@@ -16,6 +16,7 @@
 #include "mc/event_chain.h"
 #include "mc/insertion.h"
 #include "mc/lattice.h"
+#include "mc/pressure_sampler.h"
 #include "mc/swelling.h"
 #include "tests/support/chain_pressures.h"
 #include "tests/support/hard_spheres.h"

@@ -1,5 +1,6 @@
 """Results: tables, charts, pages."""
 
+import math
 import re
 import subprocess
 
@@ -81,7 +82,8 @@ def test_the_page_of_tables_describes_every_column_and_no_other(tmp_path, vitrel
         file = tmp_path / f"{dimension}.h5"
         parameters = mixture_with_everything(tmp_path / f"{dimension}.toml", dimension, shapes)
         subprocess.run([vitrel_program, "run", parameters, "-o", file, "-q"], check=True)
-        for name, table in vitrel.load(file).results.items():
+        results = vitrel.load(file).results
+        for name, table in results.items():
             kinds = [(kind, column) for kind, columns in described.items() if re.fullmatch(kind, name) for column in columns]
             for column in table.values():
                 its = [(kind, (pattern, error, unit)) for kind, (pattern, error, unit) in kinds
@@ -89,6 +91,9 @@ def test_the_page_of_tables_describes_every_column_and_no_other(tmp_path, vitrel
                 assert its, f"{name}: {column.name} in {column.unit}"
                 found.update(its)
     assert found == {(kind, column) for kind, columns in described.items() for column in columns}
+    # Of the 60 axes in space; in the plane it would be 10 % more.
+    by_chance = 9 / 4 * math.sqrt(2 / (5 * math.pi * 60))
+    assert results["relaxation"]["nematic_by_chance"].value[0] == pytest.approx(by_chance)
 
 
 def test_columns_have_errors_and_units(run):

@@ -154,7 +154,7 @@ inline std::vector<Table> structure() {
   const std::vector<double> angle = evenly(-1.5, 0.1, 31);
   std::vector<double> by_chance;
   for (const double x : angle)
-    by_chance.push_back((1 + 2 * nematic_order_by_chance(1000) * std::cos(2 * x)) /
+    by_chance.push_back((1 + 2 * nematic_order_by_chance(1000, 2) * std::cos(2 * x)) /
                         std::numbers::pi);
   const auto peak = [](double x) {
     return 1 - std::exp(-x * x) + std::exp(-8 * std::pow(x - 2.4, 2));

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "analysis/glass/glass_names.h"
-#include "analysis/structure/order.h"
 #include "core/error.h"
 #include "core/special_values.h"
 #include "core/whole_number.h"
@@ -62,9 +61,8 @@ Table relaxation_table(const GlassStudy& study) {
                     static_cast<double>(run.translation_equilibration.tests), run.wave_number,
                     Entry(run.translation.value, run.translation.error),
                     Entry(run.rotation.value, run.rotation.error),
-                    Entry(run.nematic_order.mean, run.nematic_order.error),
-                    run.rotors > 0 ? nematic_order_by_chance(run.rotors) : unknown, run.plateau,
-                    number(run.orientation)});
+                    Entry(run.nematic_order.mean, run.nematic_order.error), run.nematic_by_chance,
+                    run.plateau, number(run.orientation)});
     table.columns.front().labels.push_back(run.name);
   }
   return table;
@@ -208,6 +206,7 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   run.duration = value(*relaxation, "duration");
   run.wave_number = value(*relaxation, "wave_number");
   run.nematic_order = {value(*relaxation, "nematic_order"), error(*relaxation, "nematic_order"), 0};
+  run.nematic_by_chance = value(*relaxation, "nematic_by_chance");
   run.plateau = value(*relaxation, "plateau");
   run.orientation = static_cast<OrientationKind>(count(*relaxation, "orientation"));
   run.translation = time("tau_translation");

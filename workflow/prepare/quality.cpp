@@ -134,7 +134,7 @@ double unit_length(const Configuration2& configuration) {
 
 void add_nematic_rows(std::vector<QualityRow>& rows, const Quality& quality) {
   if (quality.rotors == 0) return;
-  const double noise = nematic_order_by_chance(quality.rotors);
+  const double noise = nematic_order_by_chance(quality.rotors, 2);
   rows.push_back({"nematic order S", fmt::format("{:.3f}", quality.nematic_order),
                   fmt::format("1: all parallel; {:.3f} on average without order", noise)});
   const NematicCorrelation& g = quality.nematic_correlation;
