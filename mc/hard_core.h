@@ -3,7 +3,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/contact/resting_bodies.h"
 #include "core/elementary.h"
 #include "core/state/configuration.h"
 

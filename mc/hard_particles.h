@@ -27,8 +27,8 @@ namespace vitrel {
 /// Cells have no capacity limit. Overlaps are decided by proofs (ellipse_overlap_batch.h, ellipsoid_overlap_batch.h,
 /// pair_overlaps.h) that depend on the state only, to the rounding of the margin.
 ///
-/// `Shape` is constructed from the shape of the configuration, and has the same radii, roundness and `fits_into`; overlaps
-/// and free paths are its own (resting_bodies.h).
+/// `Shape` is constructed from the shape of the configuration, and has the same radii, roundness and `fits_into`;
+/// overlaps and free paths are its own (resting_bodies.h).
 template <class Shape>
 class HardParticles {
  public:

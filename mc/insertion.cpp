@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/contact/contact_queries.h"
+#include "core/contact/resting_bodies.h"
 #include "core/elementary.h"
 #include "core/neighbors/cell_grid.h"
 #include "core/random/stream.h"

@@ -126,7 +126,7 @@ Observable displacement_observable(int dimension) {
           .what =
               "Mean squared displacements, also along and across the axis of the particles, mean "
               "squared rotations, fourth powers and non-Gaussian parameters.",
-          .columns = {{"time", "time", "t, the time difference"},
+          .columns = {time_difference_column(),
                       {"msd", "length^2", "⟨|Δr|²⟩", true},
                       {"msd_parallel", "length^2", "⟨(Δr·u(0))²⟩ of the rotors", true},
                       {"msd_perpendicular", "length^2", "⟨|Δr|² − (Δr·u(0))²⟩ of the rotors", true},
@@ -137,7 +137,7 @@ Observable displacement_observable(int dimension) {
                       {"quartic_rotation", "rad^4", "⟨|Δφ|⁴⟩", true},
                       {"non_gaussian_rotation", "1",
                        "n⟨|Δφ|⁴⟩/((n + 2)⟨|Δφ|²⟩²) − 1, n = 1 in the plane, 3 in space", true},
-                      {"origins", "1", "origins of time averaged over"}},
+                      origins_column()},
           .needs = {.motion = true},
           .charts = {mean_square("Mean squared displacement", "⟨|Δr(t)|²⟩",
                                  {{"msd", "⟨|Δr|²⟩"},
@@ -162,7 +162,7 @@ Table scattering_table(const Displacements& found, const DisplacementGroup& grou
 Observable scattering_observable() {
   return {.table = "self_scattering",
           .what = "Self-intermediate scattering functions at the wave numbers.",
-          .columns = {{"time", "time", "t, the time difference"},
+          .columns = {time_difference_column(),
                       {"fs_#", "1",
                        "⟨exp(iq·Δr)⟩ at the k-th of wave_numbers, over all directions of q", true}},
           .needs = {.motion = true},
@@ -191,7 +191,7 @@ Observable rotation_observable(int dimension) {
   Observable observable{
       .table = "orientation",
       .what = "Orientational correlations L_n(t) = <cos n(angle(t) - angle(0))>.",
-      .columns = {{"time", "time", "t, the time difference"}, {"l_#", "1", "⟨cos nΔθ⟩", true}},
+      .columns = {time_difference_column(), {"l_#", "1", "⟨cos nΔθ⟩", true}},
       .needs = {.motion = true, .rotors = true},
       .charts = {correlation("Orientational correlation", "Lₙ(t) = ⟨cos nΔθ⟩", {{"l_#", "L#"}})},
       .has_groups = true};
@@ -200,7 +200,7 @@ Observable rotation_observable(int dimension) {
       "Orientational correlations <P_n(u(0).u(t))> of the axis of symmetry; of scalene bodies "
       "those of all three axes.";
   observable.columns = {
-      {"time", "time", "t, the time difference"},
+      time_difference_column(),
       {"p_#", "1", "⟨P_n(u(0)·u(t))⟩, u the axis of symmetry or the longest", true},
       {"p_#_*", "1", "the same of the middle and the short axis of scalene bodies", true}};
   Chart& chart = observable.charts.front();
@@ -226,7 +226,7 @@ Observable susceptibility_observable() {
       .what =
           "Overlap Q(t), the share of particles that have hardly moved, and its four-point "
           "susceptibility.",
-      .columns = {{"time", "time", "t, the time difference"},
+      .columns = {time_difference_column(),
                   {"overlap", "1", "Q, the share with |Δr| < analysis.overlap_distance", true},
                   {"chi_4", "1", "N(⟨Q²⟩ − ⟨Q⟩²)", true}},
       .needs = {.motion = true},
@@ -258,13 +258,13 @@ Observable cage_relative_observable() {
       .what =
           "Mean squared displacement, scattering functions, overlap and four-point "
           "susceptibility of motion relative to the neighbours.",
-      .columns = {{"time", "time", "t, the time difference"},
+      .columns = {time_difference_column(),
                   {"msd", "length^2", "⟨|δ|²⟩, δ = Δr less the mean of the Voronoi neighbours",
                    true},
                   {"fs_#", "1", "⟨exp(iq·δ)⟩", true},
                   {"overlap", "1", "Q, the share with |δ| < analysis.overlap_distance", true},
                   {"chi_4", "1", "N(⟨Q²⟩ − ⟨Q⟩²)", true},
-                  {"origins", "1", "origins of time averaged over"}},
+                  origins_column()},
       .needs = {.motion = true},
       .charts = {mean_square("Mean squared displacement relative to the cage", "⟨|Δr(t)|²⟩",
                              {{"msd", "⟨|Δr − Δr of the neighbours|²⟩"}}),
@@ -326,7 +326,7 @@ Observable ageing_observable(int dimension) {
   return {
       .table = "ageing",
       .what = "Displacements, rotations and correlations after every waiting time.",
-      .columns = {{"time", "time", "t, the time difference"},
+      .columns = {time_difference_column(),
                   {"msd_#", "length^2", "⟨|r(t_w + t) − r(t_w)|²⟩ after the k-th of waiting_times",
                    true},
                   {"msr_#", "rad^2", "the same of rotations", true},
@@ -407,8 +407,7 @@ Table collective_table(const CollectiveScattering& found) {
 Observable collective_observable() {
   return {.table = "collective_scattering",
           .what = "Collective intermediate scattering functions, F(q, 0) = S(q).",
-          .columns = {{"time", "time", "t, the time difference"},
-                      {"f_#", "1", "⟨ρ(q, t) ρ(−q, 0)⟩/N", true}},
+          .columns = {time_difference_column(), {"f_#", "1", "⟨ρ(q, t) ρ(−q, 0)⟩/N", true}},
           .needs = {.motion = true},
           .charts = {at_wave_numbers(
               against_time(relaxation, "Collective scattering", "F(q, t)", {{"f_#", "#"}}),

@@ -44,7 +44,7 @@ std::vector<Observable> energy_observables() {
                 .level_of_run = Chart::Level::mean};
   return {{.table = "energies",
            .what = "Translational, rotational and total energy per particle.",
-           .columns = {{"time", "time", "time of the frame"},
+           .columns = {frame_time_column(),
                        {"translational", "kT", "Σ m v²/(2N)"},
                        {"rotational", "kT", "Σ ω·I ω/(2N)"},
                        {"total", "kT", "their sum"}},

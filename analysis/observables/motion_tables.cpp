@@ -29,10 +29,10 @@ std::vector<Observable> velocity_observables() {
   return {
       {.table = "velocity_autocorrelation",
        .what = "Autocorrelations <v(0).v(t)>/<v^2> of velocities and of angular velocities.",
-       .columns = {{"time", "time", "t, the time difference"},
+       .columns = {time_difference_column(),
                    {"c", "1", "⟨v(0)·v(t)⟩/⟨v²⟩", true},
                    {"c_angular", "1", "⟨ω(0)·ω(t)⟩/⟨ω²⟩", true},
-                   {"origins", "1", "origins of time averaged over"}},
+                   origins_column()},
        .needs = needs,
        .charts = {correlation}},
       {.table = "velocity_spectrum",
@@ -71,9 +71,9 @@ Observable viscosity_observable() {
           .what =
               "Mean squared change of the Helfand moments, <(G(t) - G(0))^2>/(2 V kT), whose "
               "slope is the shear viscosity; of elastic Newtonian runs.",
-          .columns = {{"time", "time", "t, the time difference"},
+          .columns = {time_difference_column(),
                       {"moment", "kT time^2/length^*", "⟨(G(t) − G(0))²⟩/(2 V kT)", true},
-                      {"origins", "1", "origins of time averaged over"}},
+                      origins_column()},
           .needs = {.motion = true},
           .charts = {{.section = in_motion,
                       .heading = "Helfand moment of the shear stress",
@@ -190,9 +190,7 @@ std::vector<Observable> motion_observables() {
   observables.push_back(
       {.table = "lag_times",
        .what = "Time differences of the tables with a column for each, about ten.",
-       .columns = {{"index", "1", "k"},
-                   {"time", "time", "t_k"},
-                   {"origins", "1", "origins of time averaged over"}},
+       .columns = {{"index", "1", "k"}, {"time", "time", "t_k"}, origins_column()},
        .needs = {.motion = true}});
   std::ranges::move(two_time_tables(), std::back_inserter(observables));
   return observables;

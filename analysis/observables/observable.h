@@ -24,6 +24,17 @@ struct ColumnKind {
   bool has_error = false;  ///< standard errors are beside it
 };
 
+/// Columns that several tables have.
+inline ColumnKind time_difference_column() {
+  return {"time", "time", "t, the time difference"};
+}
+inline ColumnKind frame_time_column() {
+  return {"time", "time", "time of the frame"};
+}
+inline ColumnKind origins_column() {
+  return {"origins", "1", "origins of time averaged over"};
+}
+
 /// Curves of one table that belong together. Units are those of the columns.
 struct Chart {
   /// The course of a run, or one number of every job of a sweep along what the sweep runs through.

@@ -95,7 +95,7 @@ class SpaceOrder final : public FrameObservable<3> {
 
 Observable order_table(Needs needs, std::vector<ColumnKind> columns, std::vector<Curve> curves,
                        Chart director) {
-  columns.insert(columns.begin(), {"time", "time", "time of the frame"});
+  columns.insert(columns.begin(), frame_time_column());
   const Chart order{.section = Chart::Section::course,
                     .heading = "Order",
                     .symbol = "order parameter",

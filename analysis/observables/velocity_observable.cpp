@@ -113,7 +113,7 @@ FrameObservableType<Dim> velocity_observable() {
   const Needs needs{.velocities = true, .averages = true};
   return {{{.table = "velocities",
             .what = "Temperature and second Sonine coefficient of the velocities of single frames.",
-            .columns = {{"time", "time", "time of the frame"},
+            .columns = {frame_time_column(),
                         {"temperature", "kT", "⟨m v²⟩/d, v relative to the centre of mass"},
                         {"a_2", "1", "d⟨m²v⁴⟩/((d + 2)⟨m v²⟩²) − 1"}},
             .needs = needs,

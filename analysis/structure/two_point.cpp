@@ -69,8 +69,8 @@ struct TwoPointGrid::Transforms {
   std::optional<FourierPlan> forward, backward;
 };
 
-/// The shell of every shift of the grid, and the mean distance and number of the shifts of a shell. A shift by n − k nodes
-/// is one by k in the opposite direction, so that an eighth of the shifts tells the shells of all.
+/// The shell of every shift of the grid, and the mean distance and number of the shifts of a shell. A shift by n − k
+/// nodes is one by k in the opposite direction, so that an eighth of the shifts tells the shells of all.
 struct TwoPointGrid::Shells {
   static constexpr std::uint16_t beyond = 0xffff;
 

@@ -44,7 +44,6 @@ class EllipsoidOverlapBatch {
  public:
   /// Bit k is lane k.
   using Lanes = unsigned;
-  static constexpr Lanes all_lanes = (1u << simd_width) - 1;
 
   /// `bodies` are all particles; margin ≥ 0. Both must outlive the batch.
   EllipsoidOverlapBatch(const OrientedEllipsoid& body, const OrientedEllipsoid* bodies,
@@ -56,8 +55,8 @@ class EllipsoidOverlapBatch {
         inner_(body.shape.inradius()) {}
 
   /// False if the body is known to be closer than the margin to one of the ellipsoids in these lanes; what is not known
-  /// waits for a full batch. The separations d are `offset` + their positions, and group.particle their numbers among all
-  /// bodies. Adds the number of pairs that step 3 decided to `scalar_tests`.
+  /// waits for a full batch. The separations d are `offset` + their positions, and group.particle their numbers among
+  /// all bodies. Adds the number of pairs that step 3 decided to `scalar_tests`.
   template <class Group>
   VITREL_INLINE bool may_be_clear_of(const Group& group, const Vec3& offset, Lanes lanes,
                                      std::uint64_t& scalar_tests) {

@@ -13,14 +13,14 @@ namespace vitrel {
 /// How far can one body of any shape move along x (`direction` 0), y (1) or z (2), at a fixed orientation, before it
 /// touches another at rest?
 ///
-/// A path of length s along e shortens every n·d by s n·e: with the support gap g and its normal n the path is free up
-/// to g/(n·e), and for ever if n·e ≤ 0. The support gap at the end of that path is the next. As the distance of convex
-/// bodies is a convex function of s, these are the steps of Newton's method from below: they never pass the contact, and
-/// reach it, whatever the curvature of the surfaces.
+/// A path of length s along e shortens every n·d by s n·e: with the support gap g and its normal n the path is free
+/// up to g/(n·e), and never ends if n·e ≤ 0. The support gap at the end of that path gives the next step. As the
+/// distance of convex bodies is a convex function of s, these are the steps of Newton's method from below: they never
+/// pass the contact, and reach it, whatever the curvature of the surfaces.
 ///
 /// Contact is declared with the surfaces between `gap` and 1¼ `gap` apart. A pair that is closer already, and
-/// approaching, touches at once. Ellipses (ellipse_free_path_batch.h), ellipsoids (ellipsoid_free_path_batch.h) and round
-/// bodies (round_free_path_batch.h) have faster searches.
+/// approaching, touches at once. Ellipses (ellipse_free_path_batch.h), ellipsoids (ellipsoid_free_path_batch.h) and
+/// round bodies (round_free_path_batch.h) have faster searches.
 template <class Shape, int direction>
 class PairFreePaths {
  public:

@@ -8,9 +8,10 @@
 
 namespace vitrel {
 
-/// Does one body of any shape keep a margin to all of several others at rest? Circumspheres a margin apart prove the pair
-/// separated, overlapping inspheres prove an overlap, and separated() (oriented_body.h) decides all others, one by one.
-/// Ellipses (ellipse_overlap_batch.h) and ellipsoids (ellipsoid_overlap_batch.h) have faster tests with the same answers.
+/// Does one body of any shape keep a margin to all of several others at rest? Circumspheres a margin apart prove the
+/// pair separated, overlapping inspheres prove an overlap, and separated() (oriented_body.h) decides all others, one by
+/// one. Ellipses (ellipse_overlap_batch.h) and ellipsoids (ellipsoid_overlap_batch.h) have faster tests with the same
+/// answers.
 template <class Shape>
 class PairOverlaps {
  public:

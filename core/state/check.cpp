@@ -45,8 +45,8 @@ void validate_body(const Configuration<Dim>& configuration, std::size_t i, const
   if (!(shape_of<Dim>(shape.half_lengths()) &&
         shape.circumradius() <=
             tolerance::max_box_lengths * configuration.box.lengths().minCoeff()))
-    throw InvariantError(who + ": it must have " + half_lengths_rule<Dim>() + ", of at most " +
-                         within_boxes());
+    throw InvariantError(who + ": it must have " + half_lengths_rule<Dim>() +
+                         ", and no semi-axis above " + within_boxes());
 }
 
 template <int Dim>

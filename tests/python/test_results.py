@@ -91,7 +91,7 @@ def test_the_page_of_tables_describes_every_column_and_no_other(tmp_path, vitrel
                 assert its, f"{name}: {column.name} in {column.unit}"
                 found.update(its)
     assert found == {(kind, column) for kind, columns in described.items() for column in columns}
-    # Of the 60 axes in space; in the plane it would be 10 % more.
+    # The mean for 60 random axes in space; the formula of the plane gives 10 % more.
     by_chance = 9 / 4 * math.sqrt(2 / (5 * math.pi * 60))
     assert results["relaxation"]["nematic_by_chance"].value[0] == pytest.approx(by_chance)
 

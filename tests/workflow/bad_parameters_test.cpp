@@ -3,26 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
 #include <string>
 
-#include "core/error.h"
+#include "tests/support/parameter_refusal.h"
 #include "workflow/configuration/parameters.h"
 
 namespace vitrel {
 namespace {
 
 using testing::HasSubstr;
-
-std::string refusal(const std::string& text) {
-  try {
-    parse_parameters(text, "file.toml");
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
-}
 
 struct BadFile {
   const char* text;

@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <set>
 
 #include "core/error.h"
 #include "core/io/text_file.h"
+#include "tests/support/parameter_refusal.h"
 #include "workflow/analyze/observables_page.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/sweep/sweep.h"
@@ -21,15 +21,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 const std::filesystem::path source_folder = VITREL_SOURCE_FOLDER;
-
-std::string refusal(const std::string& text) {
-  try {
-    parse_parameters(text, "file.toml");
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
-}
 
 TEST(ParameterFile, TheDefaultsAreValidAndTheTemplatesAreTheDefaults) {
   const std::string defaults = effective_parameters(Parameters());

@@ -42,8 +42,11 @@ std::optional<std::string> difference(const TrajectoryReader& trajectory,
   if (trajectory.frames() < counted)
     return fmt::format("has {} frames instead of {}", trajectory.frames(), counted);
   if (counted == 0) return std::nullopt;
+  const SampleTimes expected_times = sample_times(recorded);
+  if (counted > expected_times.size())
+    return fmt::format("belongs to a run of {} frames", expected_times.size());
   const double time = trajectory.times()[counted - 1];
-  const double expected = sample_times(recorded)[counted - 1];
+  const double expected = expected_times[counted - 1];
   if (time != expected)
     return fmt::format("has frame {} at time {}, not {}", counted - 1, time, expected);
   if (!same_particles(trajectory.read<Dim>(counted - 1), run.state.configuration))

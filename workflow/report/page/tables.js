@@ -9,7 +9,7 @@ const ranges = {
   aroundOne: (plot, low, high) => [Math.min(0, low), 1.06 * Math.max(1, high)],
 };
 
-/** Of a column's name, with a number for `#` or a text for `*`. */
+/** Matches the names of columns that have a number for `#` or a text for `*`. */
 const columnPattern = (column) => new RegExp(`^${column.replace('#', '(\\d+)').replace('*', '(.+)')}$`);
 const placeholderText = (part) => /^\d+$/.test(part) ? subscript(part) : part.replace('_', '–');
 
