@@ -116,11 +116,11 @@ void Object::set_attribute(const std::string& name, std::span<const T> values) {
 
 namespace {
 
-/// Reads strings of either kind HDF5 has; `read` fills memory of the type it is given. What is no string is empty.
+/// Reads strings of either kind HDF5 has; `read` fills memory of the type it is given.
 std::vector<std::string> read_strings(const Check& check, const Handle& stored, std::size_t count,
                                       auto&& read) {
+  if (check(H5Tget_class(stored.id())) != H5T_STRING) check.refuse("it is not a text");
   std::vector<std::string> texts(count);
-  if (check(H5Tget_class(stored.id())) != H5T_STRING) return texts;
   if (check(H5Tis_variable_str(stored.id())) > 0) {
     std::vector<char*> pointers(count, nullptr);
     check(read(stored.id(), pointers.data()));
@@ -160,9 +160,10 @@ template <class T>
 T Object::number_attribute(const std::string& name) const {
   const Check check(*file_, "read attribute", name);
   const Handle attribute(check(H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT)));
-  std::vector<T> values(std::max<std::size_t>(1, attribute_size(check, attribute)));
-  check(H5Aread(attribute.id(), type_names<T>().native, values.data()));
-  return values.front();
+  if (attribute_size(check, attribute) != 1) check.refuse("it is not one number");
+  T value{};
+  check(H5Aread(attribute.id(), type_names<T>().native, &value));
+  return value;
 }
 
 Shape Dataset::shape() const {

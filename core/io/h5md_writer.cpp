@@ -176,7 +176,10 @@ TrajectoryWriter::Series<T> TrajectoryWriter::required(const std::string& name) 
   if (!root.has_dataset(name))
     throw FileError(file_.path() + ": the dataset " + name +
                     " is missing: only a trajectory that vitrel wrote can be continued");
-  return {root.dataset(name)};
+  h5::Dataset dataset = root.dataset(name);
+  if (dataset.shape().empty())
+    throw FileError(file_.path() + ": the dataset " + name + " should have one entry per frame");
+  return {std::move(dataset)};
 }
 
 template <class T>
@@ -198,7 +201,11 @@ TrajectoryWriter::TrajectoryWriter(h5::File file)
       velocity_(existing<double>("velocity")),
       angular_velocity_(existing<double>("angular_velocity")) {
   dimension_ = read_provenance(file_.root().group("parameters")).dimension;
-  particles_ = position_.dataset.shape().at(1);
+  const h5::Shape positions = position_.dataset.shape();
+  if (positions.size() != 3 || positions[2] != 3)
+    throw FileError(file_.path() + ": the dataset " + position_.dataset.name() +
+                    " should have the shape frames × particles × 3");
+  particles_ = positions[1];
   frames_at_once_ = std::max(frames_per_chunk(particles_), position_.dataset.frames_per_chunk());
   frames_ = step_.dataset.shape().at(0);
   if (image_)
@@ -281,6 +288,12 @@ void TrajectoryWriter::for_each_series(Visit&& visit) {
 }
 
 void TrajectoryWriter::keep(std::uint64_t frames) {
+  // To make one longer would give zeros in the place of what is lost.
+  for_each_series([&](const auto& series) {
+    if (series.dataset.shape().at(0) < frames)
+      throw FileError(fmt::format("{}: the dataset {} has fewer frames than step", file_.path(),
+                                  series.dataset.name()));
+  });
   for_each_series([&](auto& series) { series.dataset.resize(frames); });
   if (close_pairs_) close_pairs_->keep(frames, file_.path());
   frames_ = frames;

@@ -31,8 +31,9 @@ TARGETS = {
     "lammps": "dumps and data files of LAMMPS",
     "python": "calls of the Python package",
 }
-PARTS = tuple(TARGETS)  # of which each keeps its commit in build/fuzz; the table shows all that were measured
-KEPT = ROOT / "build" / "fuzz"
+PARTS = tuple(TARGETS)  # each keeps its commit among the data of the pages; the table shows all that were measured
+COMMITS = ROOT / "docs/data/damaged_files"
+KEPT = ROOT / "build/fuzz"  # files that were read badly
 ENVIRONMENT = os.environ | {"UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1", "VITREL_RANDOM_CALLS": str(CALLS),
                             "ASAN_OPTIONS": "detect_leaks=0:malloc_context_size=0:quarantine_size_mb=16"}
 
@@ -66,7 +67,7 @@ def measure_target(program, target, pool):
 
 
 def commit_file(target):
-    return KEPT / f"{target}.commit"
+    return COMMITS / f"{target}.commit"
 
 
 def row(target):

@@ -213,15 +213,28 @@ TEST(Hardening, MassesAndSpeciesThatCannotBeAreRefusedByAllCommands) {
   expect_all_refuse(folder, commands, "state.h5: the species of particle 0 is 2147483647");
 }
 
-TEST(Hardening, AnArrayInThePlaceOfAStringIsRefused) {
-  const Folder folder("array_of_strings");
-  for (const char* name : {"author", "toml", "version", "parent"}) {
+TEST(Hardening, AttributesOfAnotherTypeAreRefused) {
+  const Folder folder("attributes");
+  const auto expect_refusals = [&](auto&& change, const std::string& why) {
     write_changed<2>(folder, [](auto&) {});
     h5::File file = h5::File::open(folder / "state.h5", h5::Access::write);
-    file.root().group("parameters").set_attribute(name, std::vector<std::string>(100, "a"), 1);
+    change(file.root().group("parameters"));
     file.close();
     for (const char* command : {"check", "report", "analyze"})
-      expect_refusal(run(folder.path(), {command, "state.h5", "-q"}), 3, "it is not one string");
+      expect_refusal(run(folder.path(), {command, "state.h5", "-q"}), 3, why);
+  };
+  for (const char* name : {"author", "toml", "version", "parent"}) {
+    const std::vector<std::string> texts(100, "a");
+    expect_refusals([&](h5::Group group) { group.set_attribute(name, texts, 1); },
+                    "it is not one string");
+    expect_refusals([&](h5::Group group) { group.set_attribute(name, 2.5); }, "it is not a text");
+  }
+  for (const char* name : {"seed", "dimension", "wall_seconds"}) {
+    const std::vector<double> numbers(2, 2.);
+    expect_refusals([&](h5::Group group) { group.set_attribute<double>(name, numbers); },
+                    "it is not one number");
+    expect_refusals([&](h5::Group group) { group.set_attribute(name, std::string("two")); },
+                    "cannot read attribute");
   }
 }
 

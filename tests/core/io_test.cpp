@@ -630,6 +630,40 @@ TEST_F(TrajectoryFile, MassesAndSpeciesMustMakeSense) {
             (std::vector<std::string>{"-1", "2147483647"}));
 }
 
+// Made longer, they would be zero in the frames that are missing.
+TEST_F(TrajectoryFile, SeriesThatLackFramesAreNotContinued) {
+  write_run(file("whole.h5"), 4);
+  for (const std::string name :
+       {"particles/all/position/value", "particles/all/position/time", "particles/all/angle/value",
+        "particles/all/image/value", "particles/all/box/edges/value", "observables/energy/value"}) {
+    fs::copy_file(file("whole.h5"), file("short.h5"), fs::copy_options::overwrite_existing);
+    h5::File written = h5::File::open(file("short.h5"), h5::Access::write);
+    written.root().dataset(name).resize(2);
+    written.close();
+    EXPECT_THAT(file_error([&] { TrajectoryWriter::append_to(file("short.h5"), 3); }),
+                HasSubstr("short.h5: the dataset " + name + " has fewer frames than step"));
+    EXPECT_EQ(file_error([&] { TrajectoryWriter::append_to(file("short.h5"), 2); }),
+              "(no FileError)");
+  }
+}
+
+TEST_F(TrajectoryFile, ASeriesOfAnotherShapeIsNotContinued) {
+  const auto message_about = [&](const std::string& name, const h5::Shape& shape) {
+    write_run(file("run.h5"), 1);
+    h5::File written = h5::File::open(file("run.h5"), h5::Access::write);
+    const auto [parent, child] = std::pair(fs::path(name).parent_path(), fs::path(name).filename());
+    h5::Group group = written.root().group(parent);
+    group.remove(child);
+    group.create_array<double>(child, shape, std::vector<double>(shape.empty() ? 1 : 12));
+    written.close();
+    return file_error([&] { TrajectoryWriter::append_to(file("run.h5"), 1); });
+  };
+  EXPECT_THAT(message_about("observables/energy/value", {}),
+              HasSubstr("run.h5: the dataset observables/energy/value should have one entry per"));
+  EXPECT_THAT(message_about("particles/all/position/value", {12}),
+              HasSubstr("position/value should have the shape frames × particles × 3"));
+}
+
 TEST_F(TrajectoryFile, AnAttributeThatIsNoSingleStringIsRefused) {
   write_run(file("run.h5"), 1);
   h5::File written = h5::File::open(file("run.h5"), h5::Access::write);
