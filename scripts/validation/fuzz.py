@@ -62,7 +62,7 @@ def measure_target(program, target, pool):
     if target == "python":
         commands = [["ctest", "--test-dir", ROOT / "build/asan", "--output-on-failure", "-R", r"^python\."]]
     list(pool.map(expect_success, commands))
-    KEPT.mkdir(parents=True, exist_ok=True)
+    COMMITS.mkdir(parents=True, exist_ok=True)
     commit_file(target).write_text(output_of(["git", "-C", ROOT, "rev-parse", "--short=8", "HEAD"]).strip(), encoding="utf-8")
 
 

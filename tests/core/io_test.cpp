@@ -649,6 +649,7 @@ TEST_F(TrajectoryFile, SeriesThatLackFramesAreNotContinued) {
 
 TEST_F(TrajectoryFile, ASeriesOfAnotherShapeIsNotContinued) {
   const auto message_about = [&](const std::string& name, const h5::Shape& shape) {
+    fs::remove(file("run.h5"));
     write_run(file("run.h5"), 1);
     h5::File written = h5::File::open(file("run.h5"), h5::Access::write);
     const auto [parent, child] = std::pair(fs::path(name).parent_path(), fs::path(name).filename());
