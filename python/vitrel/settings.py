@@ -4,7 +4,7 @@ import contextlib
 import inspect
 import re
 import tomllib
-from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, TypedDict, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Sequence, TypedDict, Union
 
 from . import parameters
 from ._vitrel import FileError, InvariantError, UserError

@@ -43,4 +43,3 @@ def check(container, commit, seconds):
     expect(commit in in_container(container, "grep", "-a", "-o", commit, "/run.h5"), "the run is of another commit")
     size = json.loads(output_of(["buildah", "images", "--json", "localhost/vitrel"]))[0]["size"]
     return {"seconds": seconds, "size": size, "version": version}
-

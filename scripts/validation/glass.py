@@ -35,8 +35,8 @@ def reduced(name, folder):
     text = (PARAMS / f"{name}.toml").read_text(encoding="utf-8")
     head = re.sub(r"^particles = .*", "particles = 400", text.split("[sweep", 1)[0], flags=re.MULTILINE)
     lines = []
-    for table, keys in tomllib.loads(text)["sweep"].items():
-        lines.append(f"[sweep.{table}]")
+    for section, keys in tomllib.loads(text)["sweep"].items():
+        lines.append(f"[sweep.{section}]")
         lines += [f'"{key}" = [{", ".join(map(toml, values[:kept]))}]' for key, values in keys.items()]
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{name}.toml"

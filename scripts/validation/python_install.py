@@ -129,4 +129,3 @@ def check(root, commit):
     check_removal(root, "checkout")
     return {"dependencies": dependencies, "seconds": seconds, "load": load, "processors": os.cpu_count(),
             "table": table(["file", "MB"], sizes)}
-

@@ -365,8 +365,11 @@ class Page(PageTest):
 
     def test_bands_stop_where_there_are_no_errors(self):
         self.open("two_runs.html")
+
         # χ₄ from t = 0.5 to 100, on an axis from 0.4 to 125.
-        share = lambda t: math.log(t / 0.4) / math.log(125 / 0.4)
+        def share(t):
+            return math.log(t / 0.4) / math.log(125 / 0.4)
+
         self.assertGreater(self.column_of_band("Four-point susceptibility", share(60)), 20)
         self.assertEqual(self.column_of_band("Four-point susceptibility", share(12)), 0)
 
