@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/neighbors/large_vector.h"
+#include "core/large_vector.h"
 #include "core/neighbors/prefetch.h"
 
 namespace vitrel {

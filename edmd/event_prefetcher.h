@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/neighbors/large_vector.h"
+#include "core/large_vector.h"
 #include "core/neighbors/prefetch.h"
 #include "edmd/calendar.h"
 #include "edmd/event.h"

@@ -9,7 +9,7 @@
 #include "core/contact/flight_record.h"
 #include "core/geometry/asymmetric_top.h"
 #include "core/neighbors/cell_neighbors.h"
-#include "core/neighbors/large_vector.h"
+#include "core/large_vector.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/state/configuration.h"
 #include "edmd/collision_rule.h"

@@ -10,7 +10,7 @@
 
 #include "core/elementary.h"
 #include "core/geometry/periodic_box.h"
-#include "core/neighbors/large_vector.h"
+#include "core/large_vector.h"
 #include "core/neighbors/list_pool.h"
 #include "core/neighbors/neighbor.h"
 

@@ -12,7 +12,7 @@
 #include "core/contact/simd.h"
 #include "core/elementary.h"
 #include "core/geometry/periodic_box.h"
-#include "core/neighbors/large_vector.h"
+#include "core/large_vector.h"
 #include "core/neighbors/prefetch.h"
 
 namespace vitrel {

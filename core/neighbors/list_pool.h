@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "core/neighbors/large_vector.h"
+#include "core/large_vector.h"
 #include "core/neighbors/prefetch.h"
 
 namespace vitrel {

@@ -14,9 +14,9 @@
 #include "core/geometry/capsule.h"
 #include "core/geometry/free_flight.h"
 #include "core/geometry/periodic_box.h"
+#include "core/large_vector.h"
 #include "core/neighbors/exit_time.h"
 #include "core/neighbors/inline_cell_list.h"
-#include "core/neighbors/large_vector.h"
 #include "core/neighbors/list_pool.h"
 #include "core/neighbors/neighbor.h"
 #include "core/neighbors/prefetch.h"
@@ -71,7 +71,7 @@ class Neighborhoods {
       cells_.insert(i, poses[i].position);
     }
     margin_ = 0.5 * choose_gap(target_neighbors);
-    const std::vector<Pair> pairs = pairs_closer_than(2 * margin_);
+    const LargeVector<Pair> pairs = pairs_closer_than(2 * margin_);
     std::vector<std::uint32_t> counts(poses.size());
     for (const Pair& pair : pairs) ++counts[pair.i], ++counts[pair.image.other];
     lists_.reserve(counts);
@@ -459,8 +459,8 @@ class Neighborhoods {
       return false;
   }
 
-  std::vector<Pair> pairs_closer_than(double limit) {
-    std::vector<Pair> pairs;
+  LargeVector<Pair> pairs_closer_than(double limit) {
+    LargeVector<Pair> pairs;
     for (std::size_t i = 0; i < references_.size(); ++i)
       visit_near(i, limit, [&](const Pair& pair) {
         if (pair.image.other >= i) pairs.push_back(pair);

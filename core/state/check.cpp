@@ -11,6 +11,7 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
+#include "core/large_vector.h"
 #include "core/state/exact_pair.h"
 #include "core/tolerances.h"
 
@@ -67,8 +68,8 @@ void validate(const Configuration<Dim>& configuration) {
 }
 
 template <int Dim>
-std::vector<Particle<Dim>> in_extended_precision(const Configuration<Dim>& configuration) {
-  std::vector<Particle<Dim>> particles;
+LargeVector<Particle<Dim>> in_extended_precision(const Configuration<Dim>& configuration) {
+  LargeVector<Particle<Dim>> particles;
   particles.reserve(configuration.size());
   for (std::size_t i = 0; i < configuration.size(); ++i)
     particles.push_back(exact::particle(configuration.shape[i], configuration.pose(i)));
@@ -115,8 +116,8 @@ class Examination {
   double reach() const { return 3 * scaled(nearness_) + margin_; }
   const Vec<Dim>& box() const { return box_; }
 
-  std::vector<Circumsphere<Dim>> circumspheres() const {
-    std::vector<Circumsphere<Dim>> spheres;
+  LargeVector<Circumsphere<Dim>> circumspheres() const {
+    LargeVector<Circumsphere<Dim>> spheres;
     spheres.reserve(particles_.size());
     for (const Particle<Dim>& particle : particles_) {
       Point<Dim> centre = particle.centre;
@@ -210,7 +211,7 @@ class Examination {
     if (finding.gap < smallest_gap_) set_smallest_gap(finding.gap);
   }
 
-  std::vector<Particle<Dim>> particles_;
+  LargeVector<Particle<Dim>> particles_;
   Point<Dim> lengths_;
   std::map<Place, double> closest_;  // of close pairs
   Real nearness_ = 0;                // the longest semi-axis
@@ -254,7 +255,7 @@ class Cells {
   }
 
  private:
-  void sort(const std::vector<Circumsphere<Dim>>& spheres, std::size_t cells) {
+  void sort(const LargeVector<Circumsphere<Dim>>& spheres, std::size_t cells) {
     begin_.assign(cells + 1, 0);
     for (const auto& sphere : spheres) ++begin_[cell_of(sphere.centre) + 1];
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -289,7 +290,7 @@ class Cells {
   Vec<Dim> box_;
   std::array<int, Dim> count_{};
   bool own_images_;
-  std::vector<Circumsphere<Dim>> members_;  // cell by cell
+  LargeVector<Circumsphere<Dim>> members_;  // cell by cell
   std::vector<std::size_t> begin_;          // of each cell in members_, and the end
 };
 

@@ -216,9 +216,12 @@ bool surely_apart(const Pair<Dim, Real>& pair, double gap) {
 
 template <class Real>
 Particle<2, Real> particle(const Ellipse& shape, const Pose2& pose) {
-  const auto [cosine, sine] = extended_cosine_and_sine(pose.angle);
-  const EllipseAxes<Real> axes{shape.a, shape.b, static_cast<Real>(cosine),
-                               static_cast<Real>(sine)};
+  EllipseAxes<Real> axes{shape.a, shape.b, 1, 0};
+  if (!shape.is_round()) {
+    const auto [cosine, sine] = extended_cosine_and_sine(pose.angle);
+    axes.cosine = static_cast<Real>(cosine);
+    axes.sine = static_cast<Real>(sine);
+  }
   return {pose.position.cast<Real>(), axes, shape.a, shape.is_round()};
 }
 

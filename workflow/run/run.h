@@ -38,7 +38,8 @@ struct RunOutcome {
   bool complete = false;      ///< else stopped by the run control; the same request continues
   bool was_complete = false;  ///< nothing was left to do
   RunState<Dim> state;
-  double wall_seconds = 0;  ///< of all processes that worked on the run
+  std::size_t overlaps = 0;  ///< pairs of the last state that overlap
+  double wall_seconds = 0;   ///< of all processes that worked on the run
 };
 
 /// For parameters of that dimension, which must be valid. `log` gets a line about every step, and `observer`, if there is
@@ -52,7 +53,7 @@ RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& cont
                                Observer<Dim>* observer = nullptr);
 
 /// The figures of a run, from its trajectory and its last state: what `vitrel run --json` prints.
-/// `overlaps` counts pairs of the last state. Throws FileError if the trajectory cannot be read.
+/// Throws FileError if the trajectory cannot be read.
 template <int Dim>
 Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome);
 

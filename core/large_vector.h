@@ -46,7 +46,7 @@ class HugePageAllocator {
   static constexpr std::size_t smallest = 2 * page;  ///< below, rounding up would waste memory
 };
 
-/// For what the engine holds of every particle.
+/// For what the engine and the exact check hold of every particle.
 template <class T>
 using LargeVector = std::vector<T, HugePageAllocator<T>>;
 
