@@ -14,7 +14,7 @@ namespace {
 constexpr double ln2_high = 0x1.62e42fefa38p-1,
                  ln2_low = 0x1.ef35793c7673p-45;  // k · ln2_high is exact
 
-// For |r| ≤ ln 2/2, eʳ − 1.
+// Returns eʳ − 1 for |r| ≤ ln 2/2.
 double exponential_series(double r) {
   double sum = 1. / 87178291200;  // 1/14!
   double factorial = 6227020800;
@@ -25,11 +25,11 @@ double exponential_series(double r) {
   return r + r * r * sum;
 }
 
-// The angle between −π and π for |angle| ≤ 2⁵³. Products of halves of the number of turns with parts of 2π are exact, and
-// their sum is kept as that of two numbers.
+// Returns the angle reduced to between −π and π, for |angle| ≤ 2⁵³. The number of turns is split into two halves, whose
+// products with the parts of 2π are exact; their sum is kept as an unevaluated sum of two doubles.
 double without_turns(double angle) {
   constexpr double parts[] = {0x1.921fb5p+2, 0x1.110b46p-24, 0x1.1a6262p-52, 0x1.3145c0p-76,
-                              0x1.b839a2p-102};  // of 26 bits each
+                              0x1.b839a2p-102};  // parts of 2π, 26 bits each
   constexpr double split = 0x1p27;
   const double turns = std::nearbyint(angle * (0.5 * std::numbers::inv_pi));
   const double high = split * std::nearbyint(turns / split), low = turns - high;
@@ -51,15 +51,16 @@ double without_turns(double angle) {
 CosineAndSine cosine_and_sine(double angle) {
   constexpr double largest = 0x1p53;
   if (!(std::abs(angle) <= largest))
-    angle = std::fmod(angle, 2 * std::numbers::pi);  // exact; not a number for ∞
+    angle = std::fmod(angle, 2 * std::numbers::pi);  // exact; NaN for ∞
   if (!(std::abs(angle) < detail::max_reducible_angle)) angle = without_turns(angle);
   CosineAndSine result;
   detail::reduced_cosine_and_sine<double>(angle, result.cosine, result.sine);
   return result;
 }
 
-// With x = 2ᵏ (1 + f), √½ ≤ 1 + f < √2 and s = f/(2 + f): ln(1 + f) = f − f²/2 + s (f²/2 + R),
-// R = 2/3 s² + 2/5 s⁴ + …
+// With x = 2ᵏ (1 + f), √½ ≤ 1 + f < √2 and s = f/(2 + f), the function evaluates
+//
+//     ln(1 + f) = f − f²/2 + s (f²/2 + R),   R = 2/3 s² + 2/5 s⁴ + …
 double logarithm(double x) {
   using Limits = std::numeric_limits<double>;
   if (!(x >= Limits::min() && x <= Limits::max())) {
@@ -73,7 +74,7 @@ double logarithm(double x) {
   const auto k = (bits - std::bit_cast<std::int64_t>(std::numbers::sqrt2 / 2)) >> fraction_bits;
   const double f = std::bit_cast<double>(bits - (k << fraction_bits)) - 1;
   const double s = f / (2 + f), half_square = 0.5 * f * f;
-  // Split into independent parts (Estrin's scheme).
+  // The polynomial is split into independent parts (Estrin's scheme).
   const double z = s * s, z2 = z * z, z4 = z2 * z2;
   const double part1 = 2. / 3 + z * (2. / 5), part2 = 2. / 7 + z * (2. / 9);
   const double part3 = 2. / 11 + z * (2. / 13), part4 = 2. / 15 + z * (2. / 17);
@@ -102,7 +103,8 @@ double exponential_minus_one(double x) {
   return std::abs(x) < std::numbers::ln2 / 2 ? exponential_series(x) : exponential(x) - 1;
 }
 
-// An approximation to 2e-3, corrected by the angle between it and the vector: asin(d) to the seventh power.
+// An approximation within 2e-3 is corrected by the angle between it and the vector, whose sine is d: asin d is expanded
+// to the seventh power.
 double polar_angle(double y, double x) {
   const double a = std::abs(x), b = std::abs(y), larger = std::max(a, b);
   if (larger == 0) return 0;
@@ -117,10 +119,11 @@ double polar_angle(double y, double x) {
 
 namespace {
 
-// A third of the exponent, by the bits, is within 5 % of the root; each of Halley's steps cubes that error.
+// Dividing the bits of x by three divides its exponent by three, which gives the root to within 5 %. Each Halley step
+// cubes this error.
 double cubic_root_of_normal(double x) {
   constexpr std::int64_t bias = std::int64_t{715094163}
-                                << 32;  // two thirds of that of the exponent (FreeBSD's cbrt)
+                                << 32;  // two thirds of the exponent's bias (FreeBSD's cbrt)
   double near = std::bit_cast<double>(std::bit_cast<std::int64_t>(x) / 3 + bias);
   for (int step = 0; step < 3; ++step) {
     const double cube = near * near * near;
@@ -135,7 +138,7 @@ double cubic_root_of_normal(double x) {
 double root(double x, int n) {
   if (n == 2) return std::sqrt(x);
   if (x == 0 || !std::isfinite(x)) return x;
-  // The argument is reduced to between 1/2 and 4, so that the root of 8 x is exactly twice that of x.
+  // The argument is reduced to between 1/2 and 4, so that the root of 8 x is exactly twice the root of x.
   int exponent;
   const double significand = std::frexp(std::abs(x), &exponent);
   const int third = (exponent + 3000) / 3 - 1000;
@@ -145,7 +148,7 @@ double root(double x, int n) {
 
 namespace {
 
-/// Σ c_k x^(n − k), the highest power first.
+/// Returns Σ c_k x^(n − 1 − k): the coefficient of the highest power comes first.
 template <std::size_t n>
 double polynomial(const double (&c)[n], double x) {
   double sum = c[0];

@@ -1,16 +1,16 @@
 #pragma once
 
 /// @file
-/// Elementary functions with the same bits on every processor, for all that a trajectory depends on. Those of a C library
-/// may not have them: glibc takes variants with fused multiply-add where the processor has it, which rounds otherwise.
-/// Sum, product, quotient and square root are rounded alike everywhere, and so are these functions, which consist of
-/// them (without contraction of expressions: -ffp-contract=off). Errors are in units in the last place of the result,
-/// where nothing else is said.
+/// Elementary functions whose results are bit-identical on every processor. Everything that a trajectory depends on
+/// uses them, because the functions of a C library may differ between processors: glibc selects variants with fused
+/// multiply-add where the processor has it, and these round differently. Sum, product, quotient and square root are
+/// rounded identically everywhere, and so are these functions, which use nothing else (expressions are not contracted:
+/// -ffp-contract=off). Errors are in units in the last place of the result unless stated otherwise.
 namespace vitrel {
 
 namespace detail {
 
-// Taylor series of sine and cosine for |x| ≤ π/2, to 2e-17, split into independent parts (Estrin's scheme).
+// Taylor series of sine and cosine for |x| ≤ π/2, accurate to 2e-17 and split into independent parts (Estrin's scheme);
 // xx = x².
 template <class T>
 [[gnu::always_inline]] inline T sine_series(const T& x, const T& xx) {
@@ -36,7 +36,8 @@ template <class T>
   return (1 - 0.5 * xx) + x4 * ((part1 + x4 * part2) + x8 * ((part3 + x4 * part4) + part5));
 }
 
-/// Cosine and sine of angles below this limit: from it on, subtracting multiples of π is no longer exact.
+/// `reduced_cosine_and_sine` requires |angle| below this limit: from there on, subtracting multiples of π is no longer
+/// exact.
 constexpr double max_reducible_angle = 1e6;
 template <class T>
 [[gnu::always_inline]] inline void reduced_cosine_and_sine(const T& angle, T& cosine, T& sine) {
@@ -58,28 +59,28 @@ template <class T>
 
 }  // namespace detail
 
-/// Cosine and sine to within 4 units in the last place of 1, up to 2⁵³; neighbouring numbers beyond it are more than a
-/// radian apart.
+/// Cosine and sine to within 4 units in the last place of 1, for |angle| ≤ 2⁵³. Beyond that, neighbouring doubles are
+/// more than a radian apart.
 struct CosineAndSine {
   double cosine, sine;
 };
 CosineAndSine cosine_and_sine(double angle);
 
-/// ln x to within 1 unit; −∞ for 0, not a number for x < 0.
+/// ln x to within 1 unit; −∞ for x = 0 and NaN for x < 0.
 double logarithm(double x);
 /// ln(1 + x) to within 3 units.
 double logarithm_of_one_plus(double x);
-/// eˣ to within 1 unit, while it is neither too large nor too small for a normal number.
+/// eˣ to within 1 unit if the result is a normal number.
 double exponential(double x);
 /// eˣ − 1 to within 4 units.
 double exponential_minus_one(double x);
 /// The angle of the vector (x, y), from −π to π, to within 3 units; 0 for the zero vector.
 double polar_angle(double y, double x);
-/// The square root for n = 2, the cubic root for n = 3, to within 1 unit; that of 4ᵏ x or 8ᵏ x is exactly 2ᵏ times that
-/// of x.
+/// The square root (n = 2) or the cube root (n = 3) of x to within 1 unit. The root of 4ᵏ x or 8ᵏ x is exactly 2ᵏ times
+/// the root of x.
 double root(double x, int n);
-/// The number below which a standard normal variable lies with the probability 0 < u < 1, to 10⁻¹⁵ of the larger of it
-/// and 1: rational approximations (wichura1988).
+/// The quantile of the standard normal distribution: a normal variable lies below it with probability u, 0 < u < 1. It
+/// is accurate to 10⁻¹⁵ of the larger of its size and 1, by rational approximations (wichura1988).
 double normal_quantile(double u);
 /// xⁿ for n ≥ 0, by n products.
 template <class T>

@@ -8,7 +8,7 @@
 namespace vitrel {
 namespace {
 
-/// 1/n! up to n = 29: of the series for |x| ≤ π/4, the next terms are below 2⁻¹¹⁸.
+/// 1/n! up to n = 29. The first neglected terms of the series are below 2⁻¹¹⁸ for |x| ≤ π/4.
 constexpr auto inverse_factorials = [] {
   std::array<DoubleDouble, 30> inverse;
   inverse[0] = 1;
@@ -25,7 +25,8 @@ std::pair<DoubleDouble, DoubleDouble> extended_cosine_and_sine(double angle) {
     const auto [cosine, sine] = cosine_and_sine(angle);
     return {cosine, sine};
   }
-  // Less a number of quarter turns. The second pass is for angles so large that the first misses the nearest one.
+  // Whole quarter turns are subtracted. The second pass is needed for angles so large that the first misses the nearest
+  // number.
   DoubleDouble rest = angle;
   int quarters = 0;
   for (int pass = 0; pass < 2; ++pass) {

@@ -8,28 +8,31 @@
 #include <utility>
 
 /// @file
-/// `Extended`, the numbers of the exact check (core/state/check.h): long double where that has at least 64 bits (x86: 64;
-/// Linux on ARM: 113, emulated), else the sum of two doubles. The build option VITREL_PORTABLE_EXTENDED chooses the sum of
-/// two doubles everywhere.
+/// `Extended` is the number type of the exact check (core/state/check.h): long double where it has at least 64 bits
+/// (x86: 64; Linux on ARM: 113, emulated), otherwise the sum of two doubles. The build option VITREL_PORTABLE_EXTENDED
+/// chooses the sum of two doubles everywhere.
 namespace vitrel {
 
 /// The unevaluated sum high + low of two doubles with |low| ≤ ½ ulp(high): 106 bits.
 ///
-/// Sums and products of two doubles have rounding errors that are doubles again (Dekker 1971; products are split into
-/// halves of 26 bits, without fused multiply-add). The operations are algorithms 6, 10 and 17 of Joldes, Muller & Popescu
-/// (2017), and the square root of Lefèvre et al. (2023). Their relative errors, in units of u² = 2⁻¹⁰⁶:
+/// The rounding errors of sums and products of two doubles are doubles themselves (Dekker 1971; factors are split into
+/// halves of 26 bits, without fused multiply-add). The operations are algorithms 6, 10 and 17 of Joldes, Muller &
+/// Popescu (2017), and the square root is that of Lefèvre et al. (2023). Their relative errors, in units of u² = 2⁻¹⁰⁶,
+/// are at most
 ///
 ///     sum, difference 3     product 5     quotient 15     square root 25/8
 ///
-/// also if the operands of a sum cancel; the bound of the product is that of Muller & Rideau (2022). `epsilon` is 16 u².
+/// The bound of sum and difference holds even if the operands cancel. The bound of the product is due to Muller &
+/// Rideau (2022). `epsilon` is 16 u².
 ///
 /// Sources: dekker1971, joldes2017, muller2022, lefevre2023.
 ///
-/// Measured on x86 (exact_pair.h): the criterion of a pair takes 4 to 6 times as long as in long double, its gap 5 times.
-/// The binary numbers of Boost.Multiprecision take 20 times (64 bits) and 40 times (80 bits), the gap 40 and 115 times.
+/// Measured on x86, the overlap criterion of a pair (exact_pair.h) takes 4 to 6 times as long as in long double, and
+/// the gap 5 times. With the binary floating-point types of Boost.Multiprecision the criterion takes 20 times (64 bits)
+/// or 40 times (80 bits) as long, and the gap 40 or 115 times.
 ///
-/// Valid where no product of the doubles exceeds 2⁹⁹⁶ or is below 2⁻⁹⁶⁹ (0 excepted). Infinities can be compared and
-/// negated, but give no number in products.
+/// The bounds are valid where no product of the doubles exceeds 2⁹⁹⁶ or is below 2⁻⁹⁶⁹ (0 excepted). Infinities can be
+/// compared and negated, but their products are not numbers.
 class DoubleDouble {
  public:
   constexpr DoubleDouble() = default;
@@ -84,7 +87,7 @@ class DoubleDouble {
     const double shifted = (0x1p27 + 1) * x;
     return shifted - (shifted - x);
   }
-  /// The exact sum of two doubles, and if the first is not the smaller one.
+  /// The exact sum of two doubles. `ordered_sum` requires |x| ≥ |y|.
   static constexpr DoubleDouble sum(double x, double y) {
     const double high = x + y, part = high - x;
     return {high, (x - (high - part)) + (y - part)};
@@ -104,8 +107,8 @@ using Extended =
     std::conditional_t<(std::numeric_limits<long double>::digits >= 64), long double, DoubleDouble>;
 #endif
 
-/// Cosine and sine to 2⁻¹⁰⁰, the same on every platform; beyond |angle| = 2⁵³, where neighbouring doubles are radians
-/// apart, those in double precision.
+/// Cosine and sine to within 2⁻¹⁰⁰, identical on every platform. Beyond |angle| = 2⁵³, where neighbouring doubles are
+/// radians apart, they are those of double precision.
 std::pair<DoubleDouble, DoubleDouble> extended_cosine_and_sine(double angle);
 
 }  // namespace vitrel

@@ -19,7 +19,7 @@ using Work = std::function<void(std::size_t begin, std::size_t end)>;
 
 #ifdef __SANITIZE_THREAD__
 
-// The thread sanitizer does not see how threads of oneTBB wait for each other, and would take its tasks for data races.
+// The thread sanitizer does not see how oneTBB synchronises its threads and would report its tasks as data races.
 void run_parts(std::size_t count, std::size_t part, int threads, const Work& work) {
   std::atomic<std::size_t> next = 0;
   const auto run = [&] {
@@ -35,7 +35,7 @@ void run_parts(std::size_t count, std::size_t part, int threads, const Work& wor
 #else
 
 void run_parts(std::size_t count, std::size_t part, int threads, const Work& work) {
-  thread_local tbb::task_arena arena;  // kept: to make one takes as long as a small piece of work
+  thread_local tbb::task_arena arena;  // kept: creating one takes as long as a small piece of work
   if (!arena.is_active() || arena.max_concurrency() != threads) {
     arena.terminate();
     arena.initialize(threads);
@@ -55,7 +55,7 @@ void run_parts(std::size_t count, std::size_t part, int threads, const Work& wor
 void in_parallel(std::size_t count, int threads, const Work& work) {
   threads = std::min(threads, tbb::this_task_arena::max_concurrency());
   if (threads <= 1) return work(0, count);
-  // Several parts per thread, so that none waits long for another.
+  // Each thread gets several parts, so that none waits long for another.
   run_parts(count, count / (4 * static_cast<std::size_t>(threads)) + 1, threads, work);
 }
 

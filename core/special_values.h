@@ -4,7 +4,7 @@
 
 namespace vitrel {
 
-/// What is not known in results and tables: NaN.
+/// The value of unknown quantities in results and tables.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();

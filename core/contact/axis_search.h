@@ -15,7 +15,7 @@ namespace detail {
 
 constexpr double max_time = 1e100;
 constexpr int max_steps = 1000;
-/// A gap up to this multiple of the contact gap counts as touching.
+/// A gap of up to this multiple of the contact gap counts as touching.
 constexpr double touching = 1.25;
 /// The Newton iteration ends where the gap is the contact gap to within this fraction.
 constexpr double newton_tolerance = 0.25;
@@ -26,8 +26,8 @@ struct Interval {
 };
 constexpr Interval empty_interval{1, 0};
 
-// An interval of [0, horizon] outside which |d + v t| > reach + growth t: from the first time at which the
-// circles touch to the last, or to the horizon if they grow faster than they move apart.
+// Returns an interval within [0, horizon] outside which |d + v t| > reach + growth t. It lasts from the first time at
+// which the circles touch to the last, or to the horizon if they grow faster than they move apart.
 template <int Dim>
 Interval time_within(const Vec<Dim>& d, const Vec<Dim>& v, double reach, double growth,
                      double horizon) {
@@ -41,15 +41,15 @@ Interval time_within(const Vec<Dim>& d, const Vec<Dim>& v, double reach, double 
   if (outside && !(root - b > 0)) return empty_interval;
   const double begin = outside ? c / (root - b) : 0;
   if (!(a > 0)) return {begin, horizon};
-  // The second root, without cancellation.
+  // This is the second root, without cancellation.
   const double end = b <= 0 ? (root - b) / a : -c / (root + b);
   return {begin, std::min(end, horizon)};
 }
 
 }  // namespace detail
 
-/// The contact search for one pair by the steps of first_contact.h, in either dimension. An axis is rotated by
-/// steps in its tangent plane: one number in two dimensions, two in three.
+/// The contact search for one pair by the steps of first_contact.h, in either dimension. An axis is rotated by steps in
+/// its tangent plane, which are one number in two dimensions and two in three.
 template <class PairInFlight>
 class AxisSearch {
   using Axis = typename PairInFlight::Axis;
@@ -65,11 +65,11 @@ class AxisSearch {
     int steps;
   };
 
-  /// From `begin`, up to which the bodies are disjoint, to the horizon. Flattened, because the search is so short that
-  /// calls would dominate.
+  /// Searches from `begin`, up to which the bodies are known to be disjoint, to the horizon. The function is flattened
+  /// because the search is so short that calls would dominate.
   VITREL_FLATTEN Result run(double begin, double horizon, const Axis* initial_axis) {
     const double end = std::min(horizon, detail::max_time);
-    // A pair that was screened is usually near at once.
+    // The bodies of a pair that was screened are usually near each other at once.
     const detail::Interval near =
         begin > 0 ? detail::Interval{0, end}
                   : detail::time_within(flight_.d0(), flight_.v(),
@@ -78,7 +78,7 @@ class AxisSearch {
     if (near.empty() || begin > near.end) return {Outcome::none, 0};
     flight_.start_at(std::max(begin, near.begin));
     set_axis(initial_axis ? *initial_axis : flight_.initial_axis());
-    // There the pair may be closer than the contact gap.
+    // At `begin` the pair may be closer than the contact gap.
     if (begin > near.begin && here_.gap < contact_gap_) {
       flight_.start_at(near.begin);
       set_axis(n_);
@@ -98,7 +98,7 @@ class AxisSearch {
         return contact(step);
       }
       const double duration = safe_duration(rate, time_left);
-      // The gap closes so fast that no double lies between now and the contact.
+      // If time does not advance, the gap closes so fast that no double lies between now and the contact.
       if (rate < 0 && flight_.time() + duration == flight_.time()) return contact(step);
       advance(duration);
     }
@@ -115,7 +115,8 @@ class AxisSearch {
     here_ = flight_.evaluate(n);
   }
 
-  // Whether the current axis separates the bodies, or one Newton step from it, or any axis at all.
+  // Tries the current axis, one Newton step from it, and then any axis at all. Returns whether the bodies are
+  // separated.
   bool has_separating_axis() {
     if (here_.gap > 0) return true;
     set_axis(detail::turned(n_, detail::clamped(here_.newton(), 1.0)));
@@ -125,16 +126,16 @@ class AxisSearch {
     return separates;
   }
 
-  // Only the best axis may declare a contact: near touching it is improved until the possible gain is far
-  // below the contact gap.
+  // Only the best axis may declare a contact: near touching, the axis is improved until the possible gain is far below
+  // the contact gap.
   void optimize_axis() {
     for (int step = 0; step < 30 && !is_best_axis(); ++step)
       if (!flight_.improve_axis(n_, here_)) break;
   }
   bool is_best_axis() const { return here_.gain() <= 1e-3 * contact_gap_; }
 
-  // Whether the parabola that bounds the gap `g` below stays positive for `duration` (negative: backwards),
-  // starting `margin` above zero. It is concave, so its minimum is at an end.
+  // Returns whether the parabola that bounds the gap `g` from below stays positive for `duration`, which may be
+  // negative (backwards). The parabola starts `margin` above zero. It is concave, so its minimum is at an end.
   bool stays_open(const Gap& g, double margin, double rate, double duration) const {
     const double bound = std::max(flight_.acceleration_bound(g, duration), 0.0);
     return margin > 0 && margin + duration * (rate - 0.5 * bound * duration) > 0;
@@ -146,7 +147,7 @@ class AxisSearch {
   using Step = decltype(std::declval<Gap>().newton());
   struct Approach {
     Step mixed;
-    double margin, rate, acceleration;  // margin to the contact gap; −g̈
+    double margin, rate, acceleration;  // margin to the contact gap, rate, −g̈
   };
   Approach approach(double rate) const {
     const double c = here_.determinant();
@@ -157,7 +158,7 @@ class AxisSearch {
             rate * c + dot(here_.slope, pull), flight_.acceleration(here_) * c - dot(mixed, pull)};
   }
 
-  // Whether the gap, to second order, reaches zero with at least half of the square of its rate.
+  // Returns whether the gap, to second order, reaches zero with at least half of the square of its rate.
   bool crosses(double rate) const {
     constexpr double kept = 0.5;  // fraction of the squared rate
     const Approach a = approach(rate);
@@ -165,9 +166,9 @@ class AxisSearch {
     return a.rate < 0 && lost < (1 - kept) * (a.rate * a.rate);
   }
 
-  // Newton iteration, of third order in time, for g = contact gap and dg/dφ = 0 in t and φ; then the proof that
-  // the gap was open all the way. If the iteration does not converge before `end`, or the proof fails, it
-  // restores the state and returns false.
+  // Solves g = contact gap and dg/dφ = 0 for t and φ by a Newton iteration of third order in time, and then proves that
+  // the gap was open all the way. If the iteration does not converge before `end`, or the proof fails, it restores the
+  // state and returns false.
   bool newton_to_contact(double rate, double end) {
     const double start = flight_.time(), start_rate = rate;
     const Axis start_axis = n_;
@@ -197,8 +198,8 @@ class AxisSearch {
     return false;
   }
 
-  // Whether the gap was open for the last `duration`, at whose start it was `then`: by the backward parabola
-  // from here, or by the backward parabola for the later half and the forward one for the earlier.
+  // Returns whether the gap was open during the last `duration`, at whose start it was `then`. The backward parabola
+  // from the present time proves it, or this parabola for the later half and the forward parabola for the earlier half.
   bool stayed_open(double duration, double rate, const Gap& then, double then_rate) const {
     const double half = 0.5 * duration;
     return duration >= 0 && (stays_open(here_, here_.gap, rate, -duration) ||
@@ -206,11 +207,11 @@ class AxisSearch {
                               stays_open(then, then.gap - contact_gap_, then_rate, half)));
   }
 
-  // A time step in which the gap cannot fall below the contact gap.
+  // Returns a time step in which the gap cannot fall below the contact gap.
   double safe_duration(double rate, double time_left) const {
     const double margin = std::max(here_.gap - contact_gap_, 0.0);
     const double largest = flight_.largest_acceleration();
-    // An estimate; the bound then holds for this step only.
+    // The trial step uses an estimate; the bound computed then holds for this step only.
     const double estimated = std::max(flight_.acceleration(here_), largest / 16);
     double trial = std::min(detail::first_root(margin, rate, estimated), time_left);
     trial = std::min(trial, flight_.doubling_time(here_.gap));
@@ -238,7 +239,7 @@ class AxisSearch {
   PairInFlight flight_;
   double contact_gap_;
   Axis n_;
-  Gap here_;  // along n_, now
+  Gap here_;  // the gap along n_ at the present time
 };
 
 }  // namespace vitrel

@@ -5,8 +5,9 @@
 #include "core/contact/first_contact.h"
 
 /// @file
-/// Separation, support gap and surface point as functions of poses, with one signature for all bodies, for neighbour
-/// lists and the event loop. d runs from centre 1 to centre 2, image shift included.
+/// These functions give the separation, the support gap and a surface point for given poses, with one signature for all
+/// bodies. Neighbour lists and the event loop use them. d points from centre 1 to centre 2 and includes the image
+/// shift.
 namespace vitrel {
 
 inline bool separated(const Ellipse& one, const Pose2& pose1, const Ellipse& two,

@@ -8,14 +8,15 @@
 /// @file
 /// Lower bounds of the contact times of one body with several partners at one instant.
 ///
-/// Most pairs that an event-driven run asks about do not touch before another event happens to one of
-/// them. The screen settles these in SIMD batches, by one parabola per pair,
+/// Most pairs whose contact an event-driven run predicts do not touch before another event happens to one of them. The
+/// screen rules out their contact in SIMD batches, by one parabola per pair,
 ///
 ///     g(n, t + s) ≥ g + ġ s − ½ M s²   (first_contact.h),
 ///
-/// along an axis n that is kept from one evaluation to the next; each evaluation turns it by one Newton
-/// step towards the maximum of the gap. Ellipses: ellipse_contact_screen.h; ellipsoids: ellipsoid_contact_screen.h.
-/// Disks and spheres need no bound: their contact times are known in closed form (round_contacts.h).
+/// along an axis n that is kept from one evaluation to the next; each evaluation turns it by one Newton step towards
+/// the maximum of the gap. The screen of ellipses is in ellipse_contact_screen.h and that of ellipsoids in
+/// ellipsoid_contact_screen.h. Disks and spheres need no bound, since their contact times are known in closed form
+/// (round_contacts.h).
 namespace vitrel {
 
 /// The size that all bodies share, and its growth rate.
@@ -38,11 +39,11 @@ class CandidateTimes {
     const double time = hmin(times_);
     return {time, find_first_set(times_ == time)};
   }
-  /// Removes a lane that has been dealt with.
+  /// Removes a lane that needs no further treatment.
   void discard(int lane) { times_ = select(lane_indices<lanes>() == lane, no_contact, times_); }
 
  protected:
-  /// Sets the first `count` lanes with a horizon that is not past; the others have no contact.
+  /// Sets the times of those of the first `count` lanes whose horizon has not passed; the other lanes have no contact.
   VITREL_INLINE void set_times(const Simd<lanes>& times, const Simd<lanes>& horizon, int count) {
     times_ = select(lane_indices<lanes>() < count && horizon >= 0, times, no_contact);
   }
@@ -51,7 +52,7 @@ class CandidateTimes {
   Simd<lanes> times_;
 };
 
-/// From now to the earlier of `latest` and `known_until`, but finite.
+/// Returns the time from now to the earlier of `latest` and `known_until`, limited to a finite value.
 template <class T>
 VITREL_INLINE T horizon_of(const T& known_until, double latest, double now) {
   constexpr double forever = 1e100;
@@ -63,38 +64,38 @@ template <int Dim>
 struct ScreenAxis {
   Vec<Dim> axis;
   const double* numbers() const { return axis.data(); }
-  /// The same seen from the other body.
+  /// Returns the axis as seen from the other body.
   friend ScreenAxis reversed(const ScreenAxis& known) { return {-known.axis}; }
 };
 template <int Dim>
 struct NoAxis {
   NoAxis() = default;
-  // NOLINTNEXTLINE(google-explicit-constructor): any axis is as good as none
+  // NOLINTNEXTLINE(google-explicit-constructor): round bodies ignore any axis they are given
   NoAxis(const Vec<Dim>&) {}
   friend NoAxis reversed(const NoAxis& none) { return none; }
 };
 
 }  // namespace detail
 
-/// What a pair keeps from one prediction to the next.
+/// The data that a pair keeps from one prediction to the next.
 template <Body B>
 using WarmStart = std::conditional_t<RoundBody<B>, detail::NoAxis<B::dimension>,
                                      detail::ScreenAxis<B::dimension>>;
 
 /// The screen of a body against `lanes` partners. A growing body is its `BaseShape<B>` times the common size.
 ///
-///     (coefficients, mine, now, common size, contact gap)  partners have the same coefficients
-///     set_shape(k, coefficients)   unless they have others
-///     load(partners, warm starts, latest)   screens each up to the earlier of `latest` and the time up to which it
-///                                  knows its contacts; positions relative to the same box as `mine`
+///     (coefficients, mine, now, common size, contact gap)   partners have the coefficients of `mine`
+///     set_shape(k, coefficients)   unless partner k has others
+///     load(partners, warm starts, latest)   takes the partners, and screens each up to the earlier of `latest` and the
+///                                  time up to which it knows its contacts; positions are relative to the box of `mine`
 ///     evaluate(count)   computes the times of the first `count` lanes from now: infinite if there is no contact, 0
 ///                       if the axis does not separate the pair
-///     earliest, discard the lanes in the order of their times
-///     warm_start(k)     what to pass to `load` next time
+///     earliest, discard   give the lanes in the order of their times
+///     warm_start(k)     returns what `load` needs next time
 template <Body B>
 class ContactScreen;
 
-/// first_contact, starting from the time and the axis that the screen found.
+/// Calls first_contact with the time and the axis that the screen found.
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
                                        double contact_gap, double screened_until,

@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// An ellipse at rest, apart from its place.
+/// An ellipse at rest, without its position.
 struct OrientedEllipse {
   Ellipse shape;
   Vec2 axis;  ///< unit vector along the major axis
@@ -31,12 +31,12 @@ struct EllipseBatch {
     ux[lane] = axis.x(), uy[lane] = axis.y();
   }
 
-  /// A lane of another batch.
+  /// Copies a lane of another batch.
   void copy(int lane, const EllipseBatch& from, int from_lane) {
     set(lane, from.shape(from_lane), from.position(from_lane), from.axis(from_lane));
   }
   void move(int lane, const Vec2& position) { x[lane] = position.x(), y[lane] = position.y(); }
-  /// Sets the axis alone: numbers that were just written are slow to read in batches.
+  /// Sets only the axis, since reading numbers as a batch is slow just after they were written one by one.
   void turn(int lane, const OrientedEllipse& body) {
     ux[lane] = body.axis.x(), uy[lane] = body.axis.y();
   }
@@ -55,7 +55,7 @@ struct EllipseBatch {
   SimdBatch axis_component() const {
     return (k == 0 ? ux : uy).load();
   }
-  /// The squares of the positions, moved by an offset.
+  /// Returns the squared lengths of the positions plus `offset`.
   SimdBatch squared_distances(const Vec2& offset) const {
     const SimdBatch dx = x.load() + offset.x(), dy = y.load() + offset.y();
     return dx * dx + dy * dy;

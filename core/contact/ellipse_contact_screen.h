@@ -12,15 +12,15 @@ namespace vitrel {
 template <Body B>
 requires std::same_as<BaseShape<B>, Ellipse>
 class ContactScreen<B> : public detail::CandidateTimes<2 * simd_width> {
-  /// A pair counts as open while its gap stays above this fraction of the contact gap, so that a pair that
-  /// has just collided and now separates is settled too.
+  /// A pair counts as open while its gap stays above this fraction of the contact gap, so that the screen also rules
+  /// out a contact of a pair that has just collided and now separates.
   static constexpr double min_gap_fraction = 0.5;
   using Batch = Simd<2 * simd_width>;
 
  public:
   static constexpr int lanes = 2 * simd_width;
 
-  /// `mine` at the time `now`.
+  /// `mine` is the state of the body at the time `now`.
   ContactScreen(const ShapeCoefficients<Ellipse>& coefficients, const FlightRecord<B>& mine,
                 double now, const CommonSize& common, double contact_gap)
       : coefficients_(coefficients),

@@ -9,43 +9,44 @@
 #include "core/contact/round_free_path_batch.h"
 
 /// @file
-/// How far can one ellipse move along x or y, at a fixed angle, before it touches another at rest? The free path of
-/// event-chain Monte Carlo, in SIMD batches.
+/// The free path of event-chain Monte Carlo for ellipses, in SIMD batches: how far one ellipse can move along x or y,
+/// at a fixed angle, before it touches another one that is at rest.
 ///
-/// Let x point along the path and y across it. An ellipse has the half height h = √Σ_yy, the shear k = Σ_xy/h and
-/// the half chord w = a b/h along the path through its centre, so that its support function along n = (c, s) is
+/// Let x point along the path and y across it. An ellipse has the half height h = √Σ_yy, the shear k = Σ_xy/h and the
+/// half chord w = a b/h along the path through its centre, so that its support function along n = (c, s) is
 ///
 ///     η(n) = √(w²c² + (h s + k c)²).
 ///
 /// With d from centre 1 to centre 2 and any n with c > 0, the gap along n stays positive up to the path length
 ///
-///     f(n) = (n·d − η₁(n) − η₂(n))/c:
+///     f(n) = (n·d − η₁(n) − η₂(n))/c.
 ///
-/// every n proves a free path. f is concave in s/c, and its maximum is the contact.
+/// Every n proves a free path. f is concave in s/c, and its maximum is the contact.
 ///
 /// Steps:
-///   1. An ellipse with |d_y| ≥ H = h₁ + h₂ is never hit. With t = d_y/H the point (t (k₁ + k₂), d_y) belongs
-///      to the Minkowski sum of the two bodies. So of two disjoint bodies the other is ahead if d_x is larger, and behind
-///      otherwise.
-///   2. The ellipse Q = Σ₁/q + Σ₂/(1 − q) contains that sum for 0 < q < 1. It gives the free path
+///   1. An ellipse with |d_y| ≥ H = h₁ + h₂ is never hit. With t = d_y/H the point (t (k₁ + k₂), d_y) belongs to the
+///      Minkowski sum of the two bodies. Of two disjoint bodies, the second is therefore ahead if d_x is larger than
+///      t (k₁ + k₂), and behind otherwise.
+///   2. The ellipse Q = Σ₁/q + Σ₂/(1 − q) contains this sum for 0 < q < 1. It gives the free path
 ///          d_x − (Q_xy d_y + √(det Q (Q_yy − d_y²)))/Q_yy.
-///      The bound is exact for q : 1 − q = η₁ : η₂ at the contact, which w + (h − w) t² approximates. An upper
-///      bound of the contact is d_x − t (k₁ + k₂) − (w₁ + w₂) √(1 − t²). Ellipses whose free path exceeds the
-///      upper bound of another, or the maximum length, are discarded.
-///   3. The others are solved in batches: with n = (c, (W v − B c)/G), c = √(1 − v²), G = √Q_yy, B = Q_xy/G and
-///      W = √(det Q)/G, the slope of f is a smooth function of v on −1 … 1; that of Q is d_y − G v. Bracketed
-///      Newton iteration from v = d_y/G takes 2 to 4 steps.
+///      The bound is exact for q : 1 − q = η₁ : η₂ at the contact, which w + (h − w) t² approximates. An upper bound of
+///      the contact is d_x − t (k₁ + k₂) − (w₁ + w₂) √(1 − t²). Ellipses whose free path exceeds the upper bound of
+///      another, or the maximum length, are discarded.
+///   3. The remaining ellipses are solved in batches. With n = (c, (W v − B c)/G), c = √(1 − v²), G = √Q_yy, B = Q_xy/G
+///      and W = √(det Q)/G, the slope of f is a smooth function of v on −1 … 1, and the slope of the free path of Q is
+///      d_y − G v. Bracketed Newton iteration from v = d_y/G takes 2 to 4 steps.
 ///
-/// For disks of any sizes step 2 is exact. If all particles are round, round_free_path_batch.h needs one square root.
+/// For disks of any sizes step 2 is exact. If all particles are round, round_free_path_batch.h needs only one square
+/// root.
 ///
-/// Contact is declared with the surfaces between `gap` and (a₁/b₁ + ¼) `gap` apart, to the rounding of the
-/// coordinates: as in ellipse_overlap_batch.h the first body is enlarged by the factor 1 + gap/b₁. A pair that is
-/// closer already, and approaching, touches at once.
+/// Contact is declared when the surfaces are between `gap` and (a₁/b₁ + ¼) `gap` apart, to the rounding of the
+/// coordinates, because the first body is enlarged by the factor 1 + gap/b₁. A pair that is already closer, and
+/// approaching, touches at once.
 namespace vitrel {
 
 namespace detail {
 
-/// An ellipse relative to a path along ux.
+/// Half height, shear and half chord of an ellipse relative to a path; ux is the component of its axis along the path.
 template <class T>
 struct PathProfile {
   T height, shear, half_chord;
@@ -62,7 +63,7 @@ struct PathProfile {
 
 }  // namespace detail
 
-/// Paths along x (`direction` 0) or y (1).
+/// The free path along x (`direction` 0) or y (1).
 template <int direction>
 class EllipseFreePathBatch {
  public:
@@ -81,14 +82,14 @@ class EllipseFreePathBatch {
     half_chord_ = enlarged * mine.half_chord;
   }
 
-  /// How far behind, aside and ahead the centres of particles that can end the path may be, if no semi-axis
-  /// exceeds `largest`.
+  /// Returns how far behind, aside or ahead of the moving body the centre of a particle that can end the path may be,
+  /// if no semi-axis exceeds `largest`.
   double reach_behind(double largest) const { return std::abs(shear_) + largest; }
   double reach_aside(double largest) const { return height_ + largest; }
   double reach_ahead(double largest) const { return upper_bound_ + circumradius_ + largest; }
 
-  /// Adds the ellipses in the lanes of `mask`; the separations d are `offset` + their positions, and their ids
-  /// are `first_id` + lane.
+  /// Adds the ellipses in the lanes of `mask`. The separations d are `offset` + their positions, and their ids are
+  /// `first_id` + lane.
   VITREL_INLINE void add(const EllipseBatch& group, std::uint32_t first_id, const Vec2& offset,
                          const Mask& mask) {
     const SimdBatch dx = group.coordinate<direction>() + offset[direction];
@@ -128,7 +129,7 @@ class EllipseFreePathBatch {
     }
   }
 
-  /// The free path among all ellipses added.
+  /// Returns the free path among all ellipses added.
   FreePath end() {
     if (pending_ > 0) solve_pending();
     return end_;
@@ -150,7 +151,7 @@ class EllipseFreePathBatch {
     earliest_[k] = lower[lane];
   }
 
-  // Step 3 for the pending ellipses.
+  // Performs step 3 for the pending ellipses.
   [[gnu::noinline]] void solve_pending() {
     constexpr int max_steps = 64;  // enough for bisection alone
     const SimdBatch dx = dx_.load(), dy = dy_.load();
@@ -174,7 +175,7 @@ class EllipseFreePathBatch {
       const SimdBatch inverse1 = 1. / support1, inverse2 = 1. / support2;
       const SimdBatch now = dx + (s * dy - support1 - support2) / c;
       free_length = select(now > free_length, now, free_length);
-      // df/d(s/c), and minus its derivative.
+      // The slope is df/d(s/c), and the curvature is minus its derivative.
       const SimdBatch slope = dy - height_ * along1 * inverse1 - height * along2 * inverse2;
       const SimdBatch curvature = curvature1 * (inverse1 * inverse1 * inverse1) +
                                   curvature2 * (inverse2 * inverse2 * inverse2);
@@ -194,7 +195,7 @@ class EllipseFreePathBatch {
   }
 
   double circumradius_, height_, shear_, half_chord_;  // enlarged by the gap
-  double upper_bound_;                                 // of the contact
+  double upper_bound_;                                 // upper bound of the contact
   double tolerance_;
   FreePath end_;
   int pending_ = 0;

@@ -25,21 +25,21 @@ class PerramWertheimRatio {
     mixed_ = bb[0] * aa[1] + aa[0] * bb[1] + aa_minus_bb[0] * aa_minus_bb[1] * s * s;
   }
 
-  // λ with λ : μ in the ratio of the radii of the two ellipses along d.
+  // Returns the λ for which λ : μ is the ratio of the radii of the two ellipses along d.
   double circle_like() const {
     const double r1 = std::sqrt(det_[0] * p_[1]), r2 = std::sqrt(det_[1] * p_[0]);
     return r1 + r2 > 0 ? r1 / (r1 + r2) : 0.5;
   }
 
-  // C⁻¹d as a unit vector.
+  // Returns C⁻¹d as a unit vector.
   Vec2 axis(double lambda) const { return unit_sum(1 - lambda, lambda); }
-  // The same, with √x : √y of circle_like replaced by (3x + y) : (x + 3y).
+  // Returns C⁻¹d for the λ of circle_like, with its √x : √y replaced by (3x + y) : (x + 3y).
   Vec2 circle_like_axis() const {
     const double x = det_[1] * p_[0], y = det_[0] * p_[1];
     return unit_sum(3 * x + y, x + 3 * y);
   }
 
-  // Whether F > 1; the sign of dF/dλ; and the Newton step of dF/dλ = 0.
+  // Whether F > 1, a number with the sign of dF/dλ, and the Newton step towards dF/dλ = 0.
   struct Point {
     bool above_one;
     double slope;
@@ -61,7 +61,7 @@ class PerramWertheimRatio {
   }
 
  private:
-  // Degenerate bodies (points) leave only d, and coinciding centres not even that.
+  // For degenerate bodies (points) only d is left as a direction, and for coinciding centres not even d.
   Vec2 unit_sum(double weight1, double weight2) const {
     Vec2 w(weight1 * wx_[0] + weight2 * wx_[1], weight1 * wy_[0] + weight2 * wy_[1]);
     if (w.isZero(0)) w = d_.isZero(0) ? Vec2(1, 0) : d_;

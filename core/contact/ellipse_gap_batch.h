@@ -5,8 +5,8 @@
 
 namespace vitrel {
 
-/// Ellipses: the gap along C⁻¹d with λ as for circles (detail::initial_axis), and along that axis turned by
-/// one Newton step; the larger of the two.
+/// The batch for ellipses computes the gap along C⁻¹d with the λ of circles (detail::initial_axis) and the gap along
+/// this axis turned by one Newton step, and keeps the larger of the two.
 template <>
 class GapBatch<Ellipse> {
   using Batch = Simd<2 * simd_width>;
@@ -68,7 +68,7 @@ class GapBatch<Ellipse> {
     return {gap, nx * dy - ny * dx - (h1.turning + h2.turning), gap + (h1.radius + h2.radius)};
   }
 
-  // w = adj(Σ) d and p = d·w.
+  // Computes w = adj(Σ) d and p = d·w.
   VITREL_INLINE static void adjugate_times(const Body& body, const Batch& dx, const Batch& dy,
                                            Batch& wx, Batch& wy, Batch& p) {
     const Batch along = body.ux * dx + body.uy * dy;

@@ -6,32 +6,33 @@
 #include "core/contact/ellipse_gap.h"
 
 /// @file
-/// Does one ellipse keep a margin to all of several others at rest? The overlap test of trial moves, in SIMD
-/// batches. Each answer is proved; the cheapest proofs come first.
+/// The overlap test of trial moves for ellipses, in SIMD batches: whether one ellipse keeps a margin to all of several
+/// others at rest. Each answer is proved; the cheapest proofs come first.
 ///
 ///   1. Circumcircles a margin apart prove the pair separated; overlapping incircles prove an overlap.
-///   2. The complete criterion of Vieillard-Baron (ellipse_vieillard_baron.h), free of divisions and roots:
+///   2. The complete criterion of Vieillard-Baron (ellipse_vieillard_baron.h) is evaluated without divisions and roots:
 ///      with Kᵢ = aᵢ²bᵢ², g₁ = K₂G₁ and g₂ = K₁G₂,
 ///          (K₁K₂)² Ψ = (g₁g₂)² + 18 K₁K₂ g₁g₂ − 4 (K₁g₁³ + K₂g₂³) − 27 (K₁K₂)².
 ///      It does not decide if this is so small that rounding or the margin might change its sign. Both act as relative
 ///      errors η of the terms of g₁ and g₂, which change a sum of their products by no more than 4η Σ, where Σ is the
-///      same sum with all signs positive; η ≤ 2 margin/b for the margin, and 10⁻¹¹ is far above the rounding up to
+///      same sum with all signs positive. The margin has η ≤ 2 margin/b, and η = 10⁻¹¹ is far above the rounding up to
 ///      aspect ratios of 1000.
-///   3. separated() (ellipse_gap.h) decides the rest one by one: pairs that touch to about nine digits.
+///   3. separated() (ellipse_gap.h) decides the remaining pairs one by one; they touch to about nine digits.
 ///
 /// Every step therefore gives the answer of separated(): the largest support gap is at least the margin, to the
-/// rounding of the gap. The answer depends on the pair alone, not on the other lanes. Exchanging the bodies
-/// changes it only where the gap equals the margin to rounding.
+/// rounding of the gap. The answer depends on the pair alone, not on the other lanes. Exchanging the bodies changes it
+/// only where the gap equals the margin to rounding.
+///
 /// Source: vieillardbaron1972.
 namespace vitrel {
 
 class EllipseOverlapBatch {
  public:
-  /// Bit k is lane k: these are combined and tested, but never select.
+  /// A set of lanes: bit k is lane k. Such sets are combined and tested, but never used to select.
   using Lanes = unsigned;
   static constexpr Lanes all_lanes = (1u << simd_width) - 1;
 
-  /// margin ≥ 0.
+  /// Requires margin ≥ 0.
   EllipseOverlapBatch(const OrientedEllipse& body, const OrientedEllipse* /*bodies*/, double margin)
       : shape_(body.shape),
         axis_(body.axis),
@@ -40,8 +41,8 @@ class EllipseOverlapBatch {
         bb_(shape_.b * shape_.b),
         aa_minus_bb_(shape_.aa_minus_bb()) {}
 
-  /// Whether the body keeps the margin to all ellipses in these lanes; the separations d are `offset` +
-  /// their positions. Adds the number of pairs that step 3 decided to `scalar_tests`.
+  /// Returns whether the body keeps the margin to all ellipses in these lanes; the separations d are `offset` + their
+  /// positions. Adds the number of pairs that step 3 decided to `scalar_tests`.
   VITREL_INLINE bool may_be_clear_of(const EllipseBatch& group, const Vec2& offset, Lanes lanes,
                                      std::uint64_t& scalar_tests) const {
     const SimdBatch dx = group.x.load() + offset.x(), dy = group.y.load() + offset.y();
@@ -59,11 +60,11 @@ class EllipseOverlapBatch {
     undecided &= ~verdict.certain;
     return !undecided || clear_by_scalar_tests(group, offset, undecided, scalar_tests);
   }
-  /// None wait for a full batch, so the answer is yes.
+  /// No pairs wait for a full batch, so the answer is always yes.
   bool rest_is_clear(std::uint64_t& /*scalar_tests*/) const { return true; }
 
  private:
-  // Bounds of the error of Ψ: relative to the sum of its terms, and from the margin, in units of margin/b.
+  // Bounds of the error of Ψ relative to the sum of its terms: from rounding, and from the margin in units of margin/b.
   static constexpr double psi_error = 1e-10, psi_error_of_margin = 16;
 
   struct Verdict {

@@ -5,7 +5,7 @@
 
 namespace vitrel {
 
-/// Two ellipses at one instant, in the form that the support gap uses. Element 0 is body 1.
+/// Two ellipses at one instant, in the form that the support gap uses. Element 0 belongs to body 1.
 struct EllipsePair {
   SimdPair bb;           ///< b²
   SimdPair aa_minus_bb;  ///< a² − b²
@@ -45,27 +45,27 @@ VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& aa_minus_bb, c
   s.across = nx * uy - ny * ux;
   const T hh = bb + aa_minus_bb * (s.along * s.along);
   s.height = sqrt(hh);
-  s.inverse_square = 1. / hh;  // independent of the square root
+  s.inverse_square = 1. / hh;  // does not wait for the square root
   const T inverse = s.height * s.inverse_square;
   s.turning = aa_minus_bb * s.along * s.across * inverse;
   s.radius = aabb * s.inverse_square * inverse;
   return s;
 }
 
-/// A bound K ω² of d²h/dt² while a body rotates at angular velocity ω for `duration`, which may be negative
-/// (backwards); `s` is at n now and `largest` = ω² (a² − b²)/b.
+/// Returns a bound K ω² of d²h/dt² while a body rotates at angular velocity ω for `duration`, which may be negative
+/// (backwards). `s` is evaluated at the present n, and `largest` = ω² (a² − b²)/b.
 ///
-/// The body rotates by Δ = ω t, and |u·n| changes from p = |u·n| with the initial slope
-/// r = −ω (u·dn/dφ) sgn(u·n); from cos Δ ≥ 1 − Δ²/2 and, where it is positive, 0 ≤ sin |Δ| ≤ |Δ|,
+/// The body rotates by Δ = ω t, and |u·n| changes from p = |u·n| with the initial slope r = −ω (u·dn/dφ) sgn(u·n). From
+/// cos Δ ≥ 1 − Δ²/2 and, where it is positive, 0 ≤ sin |Δ| ≤ |Δ|, it follows that
 ///
 ///     |u·n| ≥ max(0, p (1 − Δ²/2) + min(0, r t)),
 ///
-/// which bounds h² = b² + (a² − b²)(u·n)² from below. With q the ratio of that bound to h² now, ρ = a²b²/h³ rises
-/// to at most q^(−3/2) ρ ≤ ρ/q², and h falls to at least q^(1/2) h ≥ q h, so that
+/// which bounds h² = b² + (a² − b²)(u·n)² from below. Let q be the ratio of this bound to the present h². Then
+/// ρ = a²b²/h³ rises to at most q^(−3/2) ρ ≤ ρ/q², and h falls to at least q^(1/2) h ≥ q h, so that
 ///
 ///     h'' ≤ K = min(ρ/q² − q h, (a² − b²)/b),
 ///
-/// the latter its global maximum. K may be negative.
+/// where (a² − b²)/b is the global maximum of h''. K may be negative.
 template <class T>
 VITREL_INLINE T support_acceleration_bound(const SupportAlong<T>& s, const T& bb,
                                            const T& aa_minus_bb, const T& omega, const T& largest,
@@ -81,8 +81,8 @@ VITREL_INLINE T support_acceleration_bound(const SupportAlong<T>& s, const T& bb
   return min(omega * omega * (s.radius * (rise * rise) - s.height * q), largest);
 }
 
-/// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes. φ is the angle of n; h, h'
-/// and ρ are those at size 1.
+/// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, where σ are the sizes and φ is the angle of n; h, h' and ρ
+/// are those at size 1.
 struct GapAlongAxis : SupportAlong<SimdPair> {
   double gap = 0;
   double slope = 0;      ///< dg/dφ
@@ -91,14 +91,14 @@ struct GapAlongAxis : SupportAlong<SimdPair> {
   bool is_concave() const { return curvature > 0; }
   /// The Newton step in φ to the maximum.
   double newton() const { return slope / curvature; }
-  /// The gain of that step in g, to second order (meaningful only if concave).
+  /// The gain in g of the Newton step, to second order (meaningful only if g is concave).
   double gain() const { return 0.5 * slope * slope / curvature; }
-  /// The curvature as a 1 × 1 matrix C: det C and (det C) C⁻¹ t.
+  /// det C and (det C) C⁻¹ t, where C is the curvature as a 1 × 1 matrix.
   double determinant() const { return curvature; }
   double adjugate(double t) const { return t; }
 };
 
-/// `sized`: whether the sizes may differ from 1.
+/// `sized` says whether the sizes may differ from 1.
 template <bool sized = true>
 VITREL_INLINE GapAlongAxis gap_along(const EllipsePair& pair, const Vec2& n) {
   const auto total = [&](const SimdPair& of) {

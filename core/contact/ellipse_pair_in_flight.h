@@ -11,15 +11,15 @@ namespace vitrel {
 ///     ġ = n·v + Σ (σ ω h' − γ h)
 ///     −g̈ = Σ (σ ω² (ρ − h) − 2 γ ω h')
 ///
-/// with σ the size, γ the growth rate, h' = dh/dφ and ρ = h + h'' at size 1. Rotating a body by dθ is rotating n by
-/// −dθ, so that dh/dt = −ω h' and d²h/dt² = ω² h''.
+/// where σ is the size, γ the growth rate, and h' = dh/dφ and ρ = h + h'' are those at size 1. Rotating a body by dθ is
+/// the same as rotating n by −dθ, so that dh/dt = −ω h' and d²h/dt² = ω² h''.
 template <class B>
 class EllipsePairInFlight : public FlyingPair<EllipsePair> {
  public:
   using Axis = Vec2;
   using Gap = GapAlongAxis;
 
-  /// If false, all sizes are 1 at compile time.
+  /// If this is false, all sizes are known to be 1 at compile time.
   static constexpr bool grows = vitrel::grows<B>;
 
   EllipsePairInFlight(const Flight<B>& one, const Flight<B>& two)
@@ -35,7 +35,7 @@ class EllipsePairInFlight : public FlyingPair<EllipsePair> {
     max_rotation_term_ = omega_ * omega_ * pair_.aa_minus_bb / b;
   }
 
-  /// Moves to `time`, with the axes computed from the angles.
+  /// Moves to `time` and computes the axes from the angles.
   void start_at(double time) {
     place_centres<grows>(time);
     axes_time_ = time;
@@ -44,7 +44,7 @@ class EllipsePairInFlight : public FlyingPair<EllipsePair> {
     pair_.uy = axes_y_;
   }
 
-  /// Moves to `time`, with the axes rotated from those at the start, so that rounding does not accumulate.
+  /// Moves to `time` and rotates the axes from those of start_at, so that rounding does not accumulate.
   void go_to(double time) {
     const SimdPair turn = omega_ * (time - axes_time_);
     if (any_of(abs(turn) > max_small_angle)) return start_at(time);
@@ -57,7 +57,7 @@ class EllipsePairInFlight : public FlyingPair<EllipsePair> {
 
   Gap evaluate(const Axis& n) const { return gap_along<grows>(pair_, n); }
   bool improve_axis(Axis& n, Gap& here) const { return detail::improve_axis(pair_, n, here); }
-  /// From centre 1 to its surface point with normal n.
+  /// Returns the vector from centre 1 to the surface point of body 1 with normal n.
   Vec2 arm1(const Axis& n) const {
     const Vec2 u(pair_.ux[0], pair_.uy[0]);
     const double along = dot(u, n);
@@ -65,30 +65,30 @@ class EllipsePairInFlight : public FlyingPair<EllipsePair> {
     return pair_.size[0] / h * (pair_.bb[0] * n + pair_.aa_minus_bb[0] * along * u);
   }
 
-  /// ġ along the axis n, where `g` is the gap.
+  /// Returns ġ along the axis n, where `g` is the gap.
   double gap_rate(const Vec2& n, const GapAlongAxis& g) const {
     if constexpr (!grows) return dot(n, v_) + reduce(omega_ * g.turning);
     return dot(n, v_) + reduce(pair_.size * omega_ * g.turning - growth_ * g.height);
   }
 
-  /// d²g/dφdt.
+  /// Returns d²g/dφdt.
   double slope_rate(const Vec2& n, const GapAlongAxis& g) const {
     const SimdPair second = omega_ * (g.radius - g.height);
     if constexpr (!grows) return cross(n, v_) + reduce(second);
     return cross(n, v_) + reduce(pair_.size * second - growth_ * g.turning);
   }
 
-  /// −g̈.
+  /// Returns −g̈.
   double acceleration(const GapAlongAxis& g) const {
     const SimdPair rotation = omega_ * omega_ * (g.radius - g.height);
     if constexpr (!grows) return reduce(rotation);
     return reduce(pair_.size * rotation - cross_term(g));
   }
 
-  /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as long as
-  /// the sizes stay ≥ 0.
+  /// Returns M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as
+  /// long as the sizes stay ≥ 0.
   ///
-  /// With K ω² of support_acceleration_bound and growth by the factor σ + γ s,
+  /// With the bound K ω² of support_acceleration_bound and the size σ + γ s, the product
   ///
   ///     (σ + γ s)(h − ω h' s + ½ ω² K s²)
   ///
@@ -101,7 +101,7 @@ class EllipsePairInFlight : public FlyingPair<EllipsePair> {
     return reduce(pair_.size * rotation + growing - cross_term(g));
   }
 
-  /// The maximum of acceleration_bound over all axes and durations up to short_time.
+  /// Returns the maximum of acceleration_bound over all axes and durations up to short_time.
   double largest_acceleration() const {
     if constexpr (!grows) return reduce(max_rotation_term_);
     return reduce((pair_.size + short_time() * abs(growth_)) * max_rotation_term_ +

@@ -12,13 +12,13 @@ Real square(Real x) {
   return x * x;
 }
 
-/// xᵀAx: 1 on the boundary of the ellipse about the origin.
+/// Returns xᵀAx, which is 1 on the boundary of the ellipse about the origin.
 template <class Real>
 Real quadric(const EllipseAxes<Real>& e, Real x, Real y) {
   return square((x * e.cosine + y * e.sine) / e.a) + square((y * e.cosine - x * e.sine) / e.b);
 }
 
-/// tr(Σ₁A₂), where cosine and sine are those of the angle between the major axes.
+/// Returns tr(Σ₁A₂), where cosine and sine are those of the angle between the major axes.
 template <class Real>
 Real trace(const EllipseAxes<Real>& one, const EllipseAxes<Real>& two, Real cosine, Real sine) {
   return square(cosine) * (square(one.a / two.a) + square(one.b / two.b)) +

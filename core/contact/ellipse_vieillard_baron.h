@@ -11,25 +11,25 @@
 ///     G₁ = 1 + tr(Σ₁A₂) − dᵀA₂d,   G₂ = 1 + tr(Σ₂A₁) − dᵀA₁d,   q = (a₂b₂)²/(a₁b₁)²,
 ///     Ψ = G₁²G₂² + 18 G₁G₂ − 4 q G₁³ − 4 G₂³/q − 27,
 ///
-/// Σ the shape matrix, A = Σ⁻¹, d from centre 1 to centre 2.
+/// where Σ is the shape matrix, A = Σ⁻¹, and d points from centre 1 to centre 2.
 ///
-/// Why both conditions: with E(x) = xᵀAx − 1 about its own centre, the pencil tE₁ + E₂ degenerates
-/// at the roots of p(t) = t³ + G₁t² + (G₂/q)t + 1/q, and Ψ/q² is the discriminant of p. The product
-/// of the roots is negative, so one root is. Disjoint ellipses have two different positive roots
-/// besides, touching ones a double positive root, ellipses with two intersections a complex pair;
-/// crossed ellipses (four intersections) and one inside the other have three negative roots, for
-/// which Ψ > 0 too but all coefficients of p are positive. A double positive root has G₁ < 0 or
-/// G₂ < 0 with a margin, so rounding can blur only Ψ.
+/// Both conditions are needed. With E(x) = xᵀAx − 1 about its own centre, the pencil tE₁ + E₂ degenerates at the roots
+/// of p(t) = t³ + G₁t² + (G₂/q)t + 1/q, and Ψ/q² is the discriminant of p. The product of the roots is negative, so one
+/// root is negative. The other two are different and positive for disjoint ellipses, a double positive root for
+/// touching ones, and a complex pair for ellipses with two intersections. Crossed ellipses (four intersections) and
+/// ellipses one inside the other have three negative roots; for them Ψ > 0 too, but all coefficients of p are positive.
+/// At a double positive root, G₁ < 0 or G₂ < 0 holds with a margin, so rounding can affect only Ψ.
 ///
-/// Rounding: tr(Σ₁A₂) and dᵀAd are sums of positive terms. The terms of G₁ may cancel, but p near
-/// its double root feels an error of G no more than an error of the same relative size in d² (p is
-/// (t² + tr(Σ₁A₂) t + 1/q)(1 + t)(1 − F(t)), F the Perram–Wertheim function). The verdict is
-/// therefore right unless the surfaces are closer than about 100 ε (a₁ + a₂), ε the unit roundoff
-/// of Real. Lengths enter only as ratios; a pair may be given in any unit. Source:
-/// vieillardbaron1972, completed (the sign condition) and corrected (the trace).
+/// Rounding: tr(Σ₁A₂) and dᵀAd are sums of positive terms. The terms of G₁ may cancel, but near its double root p is no
+/// more sensitive to an error of G than to an error of the same relative size in d², since p = (t² + tr(Σ₁A₂)
+/// t + 1/q)(1 + t)(1 − F(t)) with the Perram–Wertheim function F. The verdict is therefore right unless the surfaces
+/// are closer than about 100 ε (a₁ + a₂), where ε is the unit roundoff of Real. Lengths enter only as ratios, so a pair
+/// may be given in any unit.
+///
+/// Source: vieillardbaron1972, completed (the sign condition) and corrected (the trace).
 namespace vitrel {
 
-/// Semi-axes, and the direction (cosine, sine) of the major one.
+/// The semi-axes, and the direction (cosine, sine) of the major one.
 template <class Real>
 struct EllipseAxes {
   Real a, b;
@@ -42,7 +42,7 @@ struct VieillardBaron {
   Real g1, g2;
 
   bool disjoint() const { return psi > 0 && has_separating_sign(); }
-  /// Touching from outside included: Ψ = 0 with the same sign condition.
+  /// Also true for ellipses that touch from outside, where Ψ = 0 and the sign condition holds.
   bool disjoint_or_touching() const { return psi >= 0 && has_separating_sign(); }
 
  private:

@@ -23,7 +23,7 @@ struct BatchQuaternion {
   BatchVec3 xyz;
 };
 
-/// Unit vectors along the axes.
+/// Returns the unit vectors along the axes of the body.
 VITREL_INLINE AxesOf<SimdBatch> directions_of(const BatchQuaternion& q) {
   const auto& [x, y, z] = q.xyz;
   const SimdBatch x2 = 2. * x, y2 = 2. * y, z2 = 2. * z;
@@ -35,7 +35,7 @@ VITREL_INLINE AxesOf<SimdBatch> directions_of(const BatchQuaternion& q) {
           {xz + wy, yz - wx, 1. - (xx + yy)}};
 }
 
-/// The orientation after rotating by ω t: exp(ω t/2) q, normalised.
+/// Returns the orientation after rotating by ω t: exp(ω t/2) q, normalised.
 VITREL_INLINE BatchQuaternion rotated(const BatchQuaternion& q, const BatchVec3& omega,
                                       const SimdBatch& time) {
   constexpr double at_rest = 1e-300;
@@ -55,7 +55,7 @@ VITREL_INLINE BatchQuaternion rotated(const BatchQuaternion& q, const BatchVec3&
 
 /// One ellipsoid per lane.
 struct EllipsoidBuffer {
-  BatchBuffer<simd_width> w;  ///< of the quaternions; xyz is their vector part
+  BatchBuffer<simd_width> w;  ///< real part of the quaternions; xyz is the vector part
   Vec3Buffer xyz, semi_axes;
   void set(int k, const Quaternion& q, const Vec3& axes) {
     w[k] = q.w();
@@ -82,8 +82,8 @@ inline AxesOf<double> axes_of(const Quaternion& orientation, const Vec3& semi_ax
           components(semi_axes[2] * turn.col(2))};
 }
 
-/// Rotates unit vectors by one Newton step on the sphere, at most 1/2: C⁻¹ s in the plane of e₁ and e₂, or
-/// along s/h where C is not positive definite, s the gradient and h the sum of the heights.
+/// Rotates unit vectors by one Newton step on the sphere, of length at most 1/2. The step is C⁻¹ s in the plane of e₁
+/// and e₂, or s/h where C is not positive definite; s is the gradient and h the sum of the heights.
 VITREL_INLINE BatchVec3 turned(const AxisOf<SimdBatch>& axis, const SimdBatch& s1,
                                const SimdBatch& s2, const SimdBatch& c11, const SimdBatch& c12,
                                const SimdBatch& c22, const SimdBatch& h) {

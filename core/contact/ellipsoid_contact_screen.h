@@ -12,13 +12,13 @@ namespace vitrel {
 template <Body B>
 requires std::same_as<BaseShape<B>, Ellipsoid>
 class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
-  /// As for ellipses (ellipse_contact_screen.h).
+  /// A pair counts as open while its gap stays above this fraction of the contact gap (ellipse_contact_screen.h).
   static constexpr double min_gap_fraction = 0.5;
 
  public:
   static constexpr int lanes = simd_width;
 
-  /// `mine` at the time `now`.
+  /// `mine` is the state of the body at the time `now`.
   ContactScreen(const ShapeCoefficients<Ellipsoid>& coefficients, const FlightRecord<B>& mine,
                 double now, const CommonSize& common, double contact_gap)
       : coefficients_(coefficients),
@@ -47,8 +47,8 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     if constexpr (tumbles<B>) max_tumbling_.set(k, coefficients.max_tumbling);
   }
 
-  /// Tumbling partners keep the orientation of their own time, from which their support functions are bounded; so that
-  /// time should not be long ago.
+  /// A tumbling partner keeps the orientation of its own time, from which its support function is bounded, so this time
+  /// should not be long ago.
   VITREL_INLINE void load(const FlightRecord<B>* const (&partner)[lanes],
                           const WarmStart<B>* const (&warm_start)[lanes], double latest) {
     using Layout = RecordLayout<3>;

@@ -10,15 +10,15 @@
 namespace vitrel {
 namespace {
 
-using std::abs, std::sqrt;  // beside those of DoubleDouble
+using std::abs, std::sqrt;  // in addition to those of DoubleDouble
 
 template <class Real>
 using Vector = Eigen::Matrix<Real, 3, 1>;
 template <class Real>
 using Matrix = Eigen::Matrix<Real, 3, 3>;
 
-/// d ln p/d ln τ and its derivative for p(τ) = Σ a_k τᵏ with no a_k negative: mean and variance of k
-/// with the weights a_k τᵏ.
+/// d ln p/d ln τ and its derivative for p(τ) = Σ a_k τᵏ, where no a_k is negative. They are the mean and the variance
+/// of k with the weights a_k τᵏ.
 template <class Real>
 struct LogDerivatives {
   Real mean = 0, variance = 0;
@@ -41,7 +41,7 @@ Real aspect_ratio(const EllipsoidAxes<Real>& body) {
   return body.lengths.maxCoeff() / body.lengths.minCoeff();
 }
 
-/// p̄₁, p̄₂, p̄₃, or what they would be if all their sums were positive.
+/// p̄₁, p̄₂ and p̄₃, or the values that they would have if all terms of their sums were positive.
 template <class Real>
 struct Coefficients {
   Real p1, p2, p3;
@@ -52,8 +52,9 @@ struct Coefficients {
   Real sum2() const { return p2 * (1 + p2 * p2 + 2 * p1 * p3) + p1 * p1 + p3 * p3; }
 };
 
-/// A bound of the error of η₁ if all e and u are good to `accuracy` in relative sums: β₁ is then good
-/// to 2 `accuracy` times the sum of its sums, β₂ to 3 of it.
+/// Returns a bound of the error of η₁ if all e and u are known to `accuracy`, relative to their sums. The error of β₁
+/// is then at most 2 `accuracy` times the sum of the magnitudes of its terms, and that of β₂ 3 `accuracy` times that
+/// sum.
 template <class Real>
 Real error_of_eta1(const Coefficients<Real>& p, const Coefficients<Real>& sums, Real accuracy) {
   const Real blur1 = 2 * accuracy * sums.sum1();
@@ -74,7 +75,7 @@ Real CharacteristicPolynomial<Real>::operator()(Real tau) const {
 
 template <class Real>
 Real CharacteristicPolynomial<Real>::maximizer() const {
-  // F is flat there: half the digits of τ give all of F.
+  // F is flat at its maximum, so half the digits of τ give all digits of F.
   const Real tolerance = sqrt(std::numeric_limits<Real>::epsilon()) / 64;
   constexpr int max_steps = 80;
   Real low = min_ratio, high = max_ratio;
@@ -146,8 +147,8 @@ EllipsoidEta<Real> ellipsoid_eta(const EllipsoidAxes<Real>& one, const Ellipsoid
   eta.eta3 = beta1 * delta1 - 3 * p.p1 * beta2;
   eta.eta2 = -9 * delta1 * delta1 + eta.eta5 * (27 * delta3 - 3 * delta2);
   eta.eta1 = beta1 * beta1 * beta1 - 27 * beta2 * beta2;
-  // Directions are good to a few ε, so the long semi-axis of one body is off by a few ε times its aspect
-  // ratio in units of the short one.
+  // Directions are accurate to a few ε, so the long semi-axis of one body is off by a few ε times its aspect ratio in
+  // units of the short one.
   const Real accuracy =
       16 * std::numeric_limits<Real>::epsilon() * std::max(aspect_ratio(one), aspect_ratio(two));
   eta.rounding = error_of_eta1(p, sums, accuracy);

@@ -10,30 +10,33 @@
 #include "core/contact/round_free_path_batch.h"
 
 /// @file
-/// How far can one ellipsoid move along x, y or z, at a fixed orientation, before it touches another at rest? The free
-/// path of event-chain Monte Carlo in space, in SIMD batches; the counterpart of ellipse_free_path_batch.h.
+/// The free path of event-chain Monte Carlo for ellipsoids, in SIMD batches: how far one ellipsoid can move along x, y
+/// or z, at a fixed orientation, before it touches another one that is at rest. ellipse_free_path_batch.h is the
+/// counterpart in the plane.
 ///
-/// With e along the path, d from centre 1 to centre 2 and n = e + s, s normal to e, the gap along n stays positive up to
-/// the path length
+/// Let e point along the path, d from centre 1 to centre 2, and n = e + s with s normal to e. The gap along n stays
+/// positive up to the path length
 ///
-///     f(s) = n·d − √(nᵀΣ₁n) − √(nᵀΣ₂n):
+///     f(s) = n·d − √(nᵀΣ₁n) − √(nᵀΣ₂n).
 ///
-/// every s proves a free path. f is concave, and its maximum is the contact.
+/// Every s proves a free path. f is concave, and its maximum is the contact.
 ///
 /// Steps:
 ///   1. Circumspheres that never meet ahead, or not before the end of the path, decide most pairs.
-///   2. The ellipsoid Q = Σ₁/q + Σ₂/(1 − q), 0 < q < 1, contains the Minkowski sum of the two bodies. If the line misses
-///      it, or leaves it behind, there is no contact; otherwise the path to it is free, and its normal there is the
-///      first n. The normal C⁻¹d, C = q(1 − q)Q, may also prove that the other body lies behind.
-///   3. The others are solved in batches, by Newton's method for s. A step after which f is not larger is replaced by
-///      the normal of Q where the line enters it, for q : 1 − q = √(nᵀΣ₁n) : √(nᵀΣ₂n) at the best n. There √(nᵀQn) is
-///      the sum of the two roots, and nowhere below it: f is larger at the new normal, unless n is its maximum.
+///   2. The ellipsoid Q = Σ₁/q + Σ₂/(1 − q), 0 < q < 1, contains the Minkowski sum of the two bodies. If the line
+///      misses Q, or leaves it behind, there is no contact; otherwise the path up to Q is free, and the normal of Q
+///      there is the first n. The normal C⁻¹d, C = q(1 − q)Q, may also prove that the other body lies behind.
+///   3. The remaining pairs are solved in batches, by Newton's method for s. A step that does not increase f is
+///      replaced by the normal of Q where the line enters it, with q : 1 − q = √(nᵀΣ₁n) : √(nᵀΣ₂n) at the best n.
+///      √(nᵀQn) equals the sum of the two roots at this n and is nowhere below it, so f is larger at the new normal
+///      unless n is its maximum.
 ///
-/// Contact is declared with the surfaces between `gap` and (a₁/c₁ + ¼) `gap` apart, to the rounding of the coordinates:
-/// the first body is enlarged by the factor 1 + gap/c₁. A pair that is closer already, and approaching, touches at once.
+/// Contact is declared when the surfaces are between `gap` and (a₁/c₁ + ¼) `gap` apart, to the rounding of the
+/// coordinates, because the first body is enlarged by the factor 1 + gap/c₁. A pair that is already closer, and
+/// approaching, touches at once.
 namespace vitrel {
 
-/// Paths along x (`direction` 0), y (1) or z (2).
+/// The free path along x (`direction` 0), y (1) or z (2).
 template <int direction>
 class EllipsoidFreePathBatch {
  public:
@@ -51,16 +54,16 @@ class EllipsoidFreePathBatch {
     for (int k = 0; k < 6; ++k) sigma_[k] = enlarged * enlarged * body.shape_matrix[entry[k]];
   }
 
-  /// How far behind, aside and ahead the centres of particles that can end the path may be, if no semi-axis
-  /// exceeds `largest`.
+  /// Returns how far behind, aside or ahead of the moving body the centre of a particle that can end the path may be,
+  /// if no semi-axis exceeds `largest`.
   double reach_behind(double largest) const { return std::sqrt(sigma_[ee]) + largest; }
   double reach_aside(double largest) const {
     return std::sqrt(std::max(sigma_[uu], sigma_[vv])) + largest;
   }
   double reach_ahead(double largest) const { return end_.length + std::sqrt(sigma_[ee]) + largest; }
 
-  /// Adds the ellipsoids in the lanes of `mask`; the separations d are `offset` + their positions, their ids are
-  /// `first_id` + lane, and group.particle their numbers among all bodies.
+  /// Adds the ellipsoids in the lanes of `mask`. The separations d are `offset` + their positions, their ids are
+  /// `first_id` + lane, and group.particle holds their numbers among all bodies.
   template <class Group>
   VITREL_INLINE void add(const Group& group, std::uint32_t first_id, const Vec3& offset,
                          const Mask& mask) {
@@ -85,7 +88,7 @@ class EllipsoidFreePathBatch {
     }
   }
 
-  /// The free path among all ellipsoids added.
+  /// Returns the free path among all ellipsoids added.
   FreePath end() {
     if (met_.count > 0) screen();
     if (open_.count > 0) solve();
@@ -93,9 +96,9 @@ class EllipsoidFreePathBatch {
   }
 
  private:
-  // Along the path and across it.
+  // The coordinates along the path and across it.
   static constexpr int e = direction, u = (direction + 1) % 3, v = (direction + 2) % 3;
-  // Entries of a symmetric matrix in these directions, and where OrientedEllipsoid has them.
+  // The entries of a symmetric matrix in these directions, and their places in OrientedEllipsoid::shape_matrix.
   enum Entry { ee, uu, vv, eu, ev, uv };
   static constexpr int entry[] = {e, u, v, e + u + 2, e + v + 2, u + v + 2};
 
@@ -123,12 +126,12 @@ class EllipsoidFreePathBatch {
           to_v(sigma[ev] * n + sigma[uv] * s + sigma[vv] * r),
           height(sqrt(n * (sigma[ee] * n + sigma[eu] * s + sigma[ev] * r) + s * to_u + r * to_v)) {}
   };
-  /// Where the line enters Q, and its normal there.
+  /// Where the line enters the ellipsoid Q, and the normal of Q there.
   struct EntryPoint {
     Mask exists;
     SimdBatch length, s, r;
   };
-  static constexpr double rounding = 1e-9;  // far above that of step 2, far below all that matters
+  static constexpr double rounding = 1e-9;  // far above rounding in step 2, far below what matters
 
   VITREL_INLINE EntryPoint enter(const Loaded& pair, const SimdBatch& q, bool screens) const {
     const SimdBatch rest = 1. - q;
@@ -161,7 +164,7 @@ class EllipsoidFreePathBatch {
     return point;
   }
 
-  // Step 2 for all pairs that met.
+  // Performs step 2 for all pairs in met_.
   [[gnu::noinline]] VITREL_FLATTEN void screen() {
     const EntryPoint point = enter(Loaded(met_), met_.share.load(), true);
     unsigned left = (point.exists && point.length < end_.length + rounding * circumradius_).bits() &
@@ -178,7 +181,7 @@ class EllipsoidFreePathBatch {
     met_.count = 0;
   }
 
-  // Step 3 for all pairs that are open.
+  // Performs step 3 for all pairs in open_.
   [[gnu::noinline]] VITREL_FLATTEN void solve() {
     constexpr int max_steps = 64;
     const Loaded pair(open_);
@@ -194,7 +197,7 @@ class EllipsoidFreePathBatch {
       distance = select(better, now / norm, distance);
       q = select(better, one.height / (one.height + two.height), q);
 
-      // The gradient of f, minus its second derivatives, and Newton's step.
+      // This is the Newton step from the gradient of f and its negated second derivatives h.
       const SimdBatch inverse1 = 1. / one.height, inverse2 = 1. / two.height;
       const SimdBatch u1 = one.to_u * inverse1, v1 = one.to_v * inverse1, u2 = two.to_u * inverse2,
                       v2 = two.to_v * inverse2;
@@ -231,7 +234,7 @@ class EllipsoidFreePathBatch {
   const OrientedEllipsoid* bodies_;
   double circumradius_, sigma_[6];  // enlarged by the gap
   double tolerance_;
-  double closest_;  // the largest overlap of the enlarged body, negative
+  double closest_;  // minus the largest overlap of the enlarged body at a contact
   FreePath end_;
   Pairs met_, open_;
 };

@@ -20,13 +20,13 @@ class PerramWertheimAxis {
         one_(matrix(pair, 0)),
         two_(matrix(pair, 1)) {}
 
-  /// λ with λ : 1 − λ in the ratio of the radii along d, 1/rᵢ² = dᵀΣᵢ⁻¹d/d².
+  /// Returns the λ for which λ : 1 − λ is the ratio of the radii along d, where 1/rᵢ² = dᵀΣᵢ⁻¹d/d².
   double circle_like() const {
     const double r1 = 1 / std::sqrt(inverse_form(one_)), r2 = 1 / std::sqrt(inverse_form(two_));
     return std::isfinite(r1 + r2) && r1 + r2 > 0 ? r1 / (r1 + r2) : 0.5;
   }
 
-  /// C⁻¹d up to a factor.
+  /// Returns C⁻¹d up to a factor.
   Vec3 direction(double lambda) const {
     const Vec3 w = adjugate(Mat3((1 - lambda) * one_ + lambda * two_)) * d_;
     return w.isZero(0) || !w.allFinite() ? d_ : w;
@@ -85,7 +85,7 @@ SeparatingAxis<Axis3> find_separating_axis(const EllipsoidPair& pair) {
     const double ratio = f.heights_ratio(w);
     double next = ratio / (1 + ratio);  // the fixed point is the maximum
     (next > lambda ? low : high) = lambda;
-    // Bisect every fourth step, in case the iteration converges slowly.
+    // The interval is bisected every fourth step, in case the iteration converges slowly.
     if (!(next > low && next < high) || step % 4 == 3) next = 0.5 * (low + high);
     if (std::abs(next - lambda) <= 1e-15 * lambda) break;
     lambda = next;

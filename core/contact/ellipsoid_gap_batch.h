@@ -7,8 +7,8 @@
 
 namespace vitrel {
 
-/// Ellipsoids: the gap along (Σ₁ + Σ₂)⁻¹d, which for long bodies is close to the normal of both. While some
-/// gap is below the limit, the axes are turned by up to two Newton steps; the largest gap counts.
+/// The batch for ellipsoids computes the gap along (Σ₁ + Σ₂)⁻¹d, which for long bodies is close to the normal of both.
+/// While some gap is below the limit, it turns the axes by up to two Newton steps and keeps the largest gap.
 template <>
 class GapBatch<Ellipsoid> {
  public:
@@ -53,7 +53,8 @@ class GapBatch<Ellipsoid> {
   Vec3 axis(int k) const { return n_[k]; }
 
  private:
-  // (Σ₁ + Σ₂)⁻¹d: the best axis of congruent parallel ellipsoids, and better than d for others.
+  // Returns (Σ₁ + Σ₂)⁻¹d, which is the best axis of congruent parallel ellipsoids, and better than d for other
+  // ellipsoids.
   VITREL_INLINE detail::BatchVec3 initial_axes(const AxesOf<SimdBatch>& partners,
                                                const detail::BatchVec3& d) const {
     const auto sum = [&](auto one, auto two) -> SimdBatch {

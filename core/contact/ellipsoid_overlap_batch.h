@@ -8,25 +8,28 @@
 #include "core/contact/sphere_batch.h"
 
 /// @file
-/// Does one ellipsoid keep a margin to all of several others at rest? The overlap test of trial moves in space, in SIMD
-/// batches; the counterpart of ellipse_overlap_batch.h. Each answer is proved; the cheapest proofs come first.
+/// The overlap test of trial moves for ellipsoids, in SIMD batches: whether one ellipsoid keeps a margin to all of
+/// several others at rest. ellipse_overlap_batch.h is the counterpart in the plane. Each answer is proved; the cheapest
+/// proofs come first.
 ///
-///   1. Circumspheres a margin apart prove the pair separated; overlapping inspheres prove an overlap. Of spheres this
-///      decides all but those closer than the margin.
-///   2. The others are collected and decided in batches, by C = (1−λ)Σ₁ + λΣ₂ and y = C⁻¹d for some 0 < λ < 1, with
-///      hᵢ² = yᵀΣᵢy:
+///   1. Circumspheres a margin apart prove the pair separated; overlapping inspheres prove an overlap. For spheres this
+///      decides all pairs except those that are closer than the margin without overlap.
+///   2. The remaining pairs are collected and decided in batches, by C = (1−λ)Σ₁ + λΣ₂ and y = C⁻¹d for some 0 < λ < 1,
+///      with hᵢ² = yᵀΣᵢy:
 ///          y·d − h₁ − h₂ ≥ margin |y|: y is the normal of a gap of at least the margin;
 ///          (1−λ)h₁ < 1 and λh₂ < 1: the point (1−λ)Σ₁y from centre 1, which is λΣ₂y from centre 2, lies in both.
 ///      λ : 1−λ = h₁ : h₂ is a fixed point where F(λ) of Perram and Wertheim is largest (perram_wertheim.h), and one of
-///      the two then holds unless the pair touches. A few steps decide nearly all pairs.
-///   3. separated() (ellipsoid_gap.h) decides the rest one by one.
+///      the two conditions then holds unless the pair touches. A few steps decide nearly all pairs.
+///   3. separated() (ellipsoid_gap.h) decides the remaining pairs one by one.
 ///
-/// Rounding, relative to the longest semi-axis, is far below 10⁻¹³ (a/c)³, which both proofs of step 2 must exceed; a is
-/// the longest and c the shortest semi-axis of the pair. Every step therefore gives the answer of separated().
+/// Both proofs of step 2 must hold with a margin of 10⁻¹³ (a/c)³ relative to the longest semi-axis, which is far above
+/// the rounding; a is the longest and c the shortest semi-axis of the pair. Every step therefore gives the answer of
+/// separated().
+///
 /// Source: perram1985.
 namespace vitrel {
 
-/// An ellipsoid at rest, apart from its place.
+/// An ellipsoid at rest, without its position.
 struct OrientedEllipsoid {
   Ellipsoid shape;
   Quaternion orientation;
@@ -42,10 +45,10 @@ struct OrientedEllipsoid {
 
 class EllipsoidOverlapBatch {
  public:
-  /// Bit k is lane k.
+  /// A set of lanes: bit k is lane k.
   using Lanes = unsigned;
 
-  /// `bodies` are all particles; margin ≥ 0. Both must outlive the batch.
+  /// `bodies` are all particles; they and `body` must outlive the batch. Requires margin ≥ 0.
   EllipsoidOverlapBatch(const OrientedEllipsoid& body, const OrientedEllipsoid* bodies,
                         double margin)
       : body_(body),
@@ -54,9 +57,10 @@ class EllipsoidOverlapBatch {
         outer_(body.shape.circumradius()),
         inner_(body.shape.inradius()) {}
 
-  /// False if the body is known to be closer than the margin to one of the ellipsoids in these lanes; what is not known
-  /// waits for a full batch. The separations d are `offset` + their positions, and group.particle their numbers among
-  /// all bodies. Adds the number of pairs that step 3 decided to `scalar_tests`.
+  /// Returns false if the body is known to be closer than the margin to one of the ellipsoids in these lanes; pairs
+  /// that are not decided yet wait for a full batch. The separations d are `offset` + the positions of the ellipsoids,
+  /// and group.particle holds their numbers among all bodies. Adds the number of pairs that step 3 decided to
+  /// `scalar_tests`.
   template <class Group>
   VITREL_INLINE bool may_be_clear_of(const Group& group, const Vec3& offset, Lanes lanes,
                                      std::uint64_t& scalar_tests) {
@@ -77,7 +81,7 @@ class EllipsoidOverlapBatch {
     return true;
   }
 
-  /// The answer for the ellipsoids that still wait.
+  /// Returns whether the body keeps the margin to the ellipsoids that still wait.
   VITREL_INLINE bool rest_is_clear(std::uint64_t& scalar_tests) {
     return pending_ == 0 || pending_are_clear(scalar_tests);
   }
@@ -117,7 +121,7 @@ class EllipsoidOverlapBatch {
     return !undecided || clear_by_scalar_tests(undecided, scalar_tests);
   }
 
-  /// Step 2 at these λ, which become the next ones.
+  /// Performs step 2 at these λ and replaces them by the next ones.
   VITREL_INLINE Verdict judge(SimdBatch& lambda, const SimdBatch& slack, const SimdBatch& margin) {
     const SimdBatch rest = 1. - lambda;
     Symmetric<SimdBatch> two, c;

@@ -23,7 +23,8 @@ struct AxisOf {
   Vec3Of<T> n, e1, e2;
 };
 
-/// Completes n to a basis without a square root, smoothly except at n_z = 0 (Duff et al., 2017).
+/// Completes n to an orthonormal basis without a square root; the result is smooth in n except at n_z = 0 (Duff et al.,
+/// 2017).
 template <class T>
 VITREL_INLINE AxisOf<T> completed(const Vec3Of<T>& n) {
   using detail::signs;
@@ -33,7 +34,7 @@ VITREL_INLINE AxisOf<T> completed(const Vec3Of<T>& n) {
   return {n, {1. + sign * (n.x * n.x * a), sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
 }
 
-/// An ellipsoid at one instant: the rows of G = diag(a, b, c) Rᵀ, that is, the semi-axes as vectors. The
+/// An ellipsoid at one instant, given by the rows of G = diag(a, b, c) Rᵀ, which are its semi-axes as vectors. The
 /// ellipsoid is the set of Gᵀu with |u| ≤ 1.
 template <class T>
 struct AxesOf {
@@ -80,9 +81,9 @@ VITREL_INLINE SpinOf<T> spin_along(const Vec3Of<B>& omega, const AxisOf<A>& axis
   return {dot(omega, axis.n), dot(omega, axis.e1), dot(omega, axis.e2)};
 }
 
-/// The time derivatives of the support function at a fixed n while the body rotates. Rotating the body is
-/// rotating n the other way, so ḣ = −x·(ω × n) and ḧ = (ω × n)·H(ω × n) + (x·ω)(ω·n) − ω² h; with the gradient
-/// of −ḣ in the plane of e₁ and e₂.
+/// The time derivatives of the support function at a fixed n while the body rotates, and the gradient of −ḣ in the
+/// plane of e₁ and e₂. Rotating the body is the same as rotating n the other way, so ḣ = −x·(ω × n) and
+/// ḧ = (ω × n)·H(ω × n) + (x·ω)(ω·n) − ω² h.
 template <class T>
 struct SupportRates {
   T rate;            ///< ḣ
@@ -100,12 +101,13 @@ VITREL_INLINE SupportRates<T> support_rates(const SupportOf<T>& s, const SpinOf<
           hq1 + (w.on * s.s2 - w.o2 * s.height), hq2 + (w.o1 * s.height - w.on * s.s1)};
 }
 
-/// A bound of ḧ for `duration`, which may be negative (backwards), from bounds of the derivatives of h² over that time,
-/// |(h²)''|/2 ≤ `second` and |(h²)'''|/2 ≤ `third`: ḧ = ((h²)''/2 − ḣ²)/h is at most q/h_min with
+/// Returns a bound of ḧ for `duration`, which may be negative (backwards), from bounds of the derivatives of h² over
+/// that time, |(h²)''|/2 ≤ `second` and |(h²)'''|/2 ≤ `third`: ḧ = ((h²)''/2 − ḣ²)/h is at most q/h_min with
 ///
-///     q = min(second, h ḧ + ḣ² + third t) now,   h_min² = max(c², h² − 2 |h ḣ| t − second t²),
+///     q = min(second, h ḧ + ḣ² + third t),   h_min² = max(c², h² − 2 |h ḣ| t − second t²),
 ///
-/// where c is the shortest semi-axis, the term |h ḣ| counts only if h decreases, and negative q counts as 0.
+/// where h and its derivatives are the present ones, c is the shortest semi-axis, the term |h ḣ| counts only if h
+/// decreases, and negative q counts as 0.
 template <class T>
 VITREL_INLINE T bounded_acceleration(const SupportOf<T>& s, const SupportRates<T>& r,
                                      const T& second, const T& third, const T& cc,
@@ -121,11 +123,10 @@ VITREL_INLINE T bounded_acceleration(const SupportOf<T>& s, const SupportRates<T
   return positive_part(rising) / sqrt(min_squared);
 }
 
-/// The same while a body rotates about a constant ω.
+/// Returns a bound of ḧ for `duration`, which may be negative (backwards), while a body rotates about a constant ω.
 ///
-/// In the frame of the body n rotates about u = ω/|ω| at a constant angle α. Let S be the shape matrix in that
-/// frame, Δ ≤ a² − c² the difference of its eigenvalues in the plane normal to u, and τ = |S u − u (u·S u)|. With
-/// φ = |ω| t
+/// In the frame of the body, n rotates about u = ω/|ω| at a constant angle α. Let S be the shape matrix in that frame,
+/// Δ ≤ a² − c² the difference of its eigenvalues in the plane normal to u, and τ = |S u − u (u·S u)|. With φ = |ω| t,
 ///
 ///     h² = const + sin 2α τ cos(φ − φ₁) + ½ sin²α Δ cos 2(φ − φ₂),
 ///
@@ -146,15 +147,15 @@ VITREL_INLINE T support_acceleration_bound(const SupportOf<T>& s, const SupportR
 /// A vector of the tangent plane, in the basis e₁, e₂.
 using Tangent = Vec2;
 
-/// Two ellipsoids at one instant. Element 0 is body 1.
+/// Two ellipsoids at one instant. Element 0 belongs to body 1.
 struct EllipsoidPair {
   AxesOf<SimdPair> axes;  ///< at size 1
   SimdPair size;          ///< factor of the semi-axes
   Vec3 d;                 ///< from centre 1 to centre 2
 };
 
-/// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes, with its gradient and second
-/// derivatives along the great circles through n: C = Σ σ H + g on the plane of e₁ and e₂.
+/// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, where σ are the sizes, with its gradient and second
+/// derivatives along the great circles through n. In the plane of e₁ and e₂, C = Σ σ H + g.
 struct GapAlongAxis3 : SupportOf<SimdPair> {
   double gap = 0;
   Tangent slope;
@@ -166,18 +167,19 @@ struct GapAlongAxis3 : SupportOf<SimdPair> {
   Tangent adjugate(const Tangent& t) const {
     return {c22 * t[0] - c12 * t[1], c11 * t[1] - c12 * t[0]};
   }
-  /// The Newton step to the maximum; where g is not concave the gradient over h₁ + h₂.
+  /// The Newton step to the maximum or, where g is not concave, the gradient over h₁ + h₂.
   Tangent newton() const {
     return is_concave() ? Tangent(adjugate(slope) / determinant())
                         : Tangent(slope / reduce(height));
   }
-  /// The gain of that step in g, to second order (meaningful only if concave).
+  /// The gain in g of the Newton step, to second order (meaningful only if g is concave).
   double gain() const { return 0.5 * dot(slope, newton()); }
 };
 
 using Axis3 = AxisOf<double>;
 
-/// τ of support_acceleration_bound, from u = ω/|ω| along the axes of the body and its squared semi-axes.
+/// Returns τ of support_acceleration_bound, from the components of u = ω/|ω| along the axes of the body and its squared
+/// semi-axes.
 template <class T>
 VITREL_INLINE T tumbling(const Vec3Of<T>& u, const Vec3Of<T>& squares) {
   using std::sqrt;
@@ -187,7 +189,7 @@ VITREL_INLINE T tumbling(const Vec3Of<T>& u, const Vec3Of<T>& squares) {
   return sqrt(dot(rest, rest));
 }
 
-/// Conversions between the two vector types.
+/// `components` and `vector` convert between the two vector types.
 inline Vec3Of<double> components(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }

@@ -14,7 +14,7 @@ namespace vitrel {
 ///     ġ = n·v − Σ (σ ḣ + γ h)
 ///     −g̈ = Σ (σ ḧ + 2 γ ḣ)
 ///
-/// with σ the size, γ the growth rate, and h and its derivatives at size 1.
+/// where σ is the size, γ the growth rate, and h and its derivatives are those at size 1.
 template <class B>
 class EllipsoidPairInFlight : public FlyingPair<EllipsoidPair> {
  public:
@@ -54,31 +54,31 @@ class EllipsoidPairInFlight : public FlyingPair<EllipsoidPair> {
     return true;
   }
 
-  /// From centre 1 to its surface point with normal n.
+  /// Returns the vector from centre 1 to the surface point of body 1 with normal n.
   Vec3 arm1(const Axis& n) const {
     const SupportOf<SimdPair> s = support_along<SimdPair>(pair_.axes, n);
     return pair_.size[0] *
            (s.height[0] * vector(n.n) + s.s1[0] * vector(n.e1) + s.s2[0] * vector(n.e2));
   }
 
-  /// ġ along the axis n, where `g` is the gap.
+  /// Returns ġ along the axis n, where `g` is the gap.
   double gap_rate(const Axis& n, const Gap& g) const {
     return dot(vector(n.n), v_) - reduce(pair_.size * g.rate + growth_ * g.height);
   }
 
-  /// d/dt of the gradient of g.
+  /// Returns d/dt of the gradient of g.
   Tangent slope_rate(const Axis& n, const Gap& g) const {
     return {dot(vector(n.e1), v_) + reduce(pair_.size * g.mixed1 - growth_ * g.s1),
             dot(vector(n.e2), v_) + reduce(pair_.size * g.mixed2 - growth_ * g.s2)};
   }
 
-  /// −g̈.
+  /// Returns −g̈.
   double acceleration(const Gap& g) const {
     return reduce(pair_.size * g.second + 2 * growth_ * g.rate);
   }
 
-  /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as long as
-  /// the sizes stay ≥ 0. With the bound K of ḧ (ellipsoid_pair_rotation.h),
+  /// Returns M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as
+  /// long as the sizes stay ≥ 0. With the bound K of ḧ (ellipsoid_pair_rotation.h), the product
   ///
   ///     (σ + γ s)(h + ḣ s + ½ K s²)
   ///
@@ -90,7 +90,7 @@ class EllipsoidPairInFlight : public FlyingPair<EllipsoidPair> {
                   2 * growth_ * g.rate);
   }
 
-  /// The maximum of acceleration_bound over all axes and durations up to short_time.
+  /// Returns the maximum of acceleration_bound over all axes and durations up to short_time.
   double largest_acceleration() const {
     const SimdPair rotation = rotation_.largest_acceleration();
     if constexpr (!grows<B>) return reduce(rotation);

@@ -8,14 +8,15 @@
 #include "core/geometry/tumbling_ellipsoid.h"
 
 /// @file
-/// How the two ellipsoids of a pair rotate in free flight. Both models offer
+/// The rotation of the two ellipsoids of a pair in free flight. Both models offer
 ///
 ///     place(lane, shape, flight), complete()
-///     go_to(time), always from time 0, so that rounding does not accumulate; then
-///     axes, omega           the semi-axes at size 1, and ω
-///     add_angular_acceleration(rates, support, n)   what the change of ω adds to ḧ (ellipsoid_pair.h)
-///     acceleration_bound(support, rates, spin, duration)   of ḧ, for `duration` from here, which may be negative
-///     largest_acceleration, max_speed   the maxima of that bound over axes and durations, and of |ω|
+///     go_to(time)           always from time 0, so that rounding does not accumulate
+///     axes, omega           the semi-axes at size 1, and ω, at the time of go_to
+///     add_angular_acceleration(rates, support, n)   adds the contribution of the change of ω to ḧ (ellipsoid_pair.h)
+///     acceleration_bound(support, rates, spin, duration)   a bound of ḧ for `duration` from the present time, which
+///                           may be negative
+///     largest_acceleration, max_speed   the maxima of this bound over axes and durations, and of |ω|
 namespace vitrel::detail {
 
 inline void set_lane(Vec3Of<SimdPair>& v, int lane, const Vec3& value) {
@@ -24,7 +25,7 @@ inline void set_lane(Vec3Of<SimdPair>& v, int lane, const Vec3& value) {
   v.z.set(lane, value.z());
 }
 
-/// About a constant ω.
+/// A rotation about a constant ω.
 class UniformRotation {
  public:
   AxesOf<SimdPair> axes;
@@ -105,14 +106,15 @@ class UniformRotation {
   Vec3Of<SimdPair> spin_axis_;   ///< ω/|ω|
   SimdPair speed_;               ///< |ω|
   Vec3Of<SimdPair> body_omega_;  ///< ω along the axes of the body
-  Vec3Of<SimdPair> squares_;     ///< of the semi-axes
+  Vec3Of<SimdPair> squares_;     ///< squares of the semi-axes
   SimdPair aa_minus_cc_, cc_, tau_;
   Parts parts_[3];
 };
 
-/// By Euler's equations. In the frame of the body n moves with ṅ = −ω × n, n̈ = −ω̇ × n − ω × ṅ and
-/// d³n/dt³ = −ω̈ × n − 2 ω̇ × ṅ − ω × n̈, where |ω| ≤ Ω, |ω̇| ≤ f Ω² (asymmetric_top.h) and so |ω̈| ≤ 2 f²Ω³. As |n| = 1,
-/// (a² + c²)/2 may be taken from the eigenvalues of S in h² = n·S n, whose magnitude is then at most (a² − c²)/2:
+/// A rotation by Euler's equations. In the frame of the body, n moves with ṅ = −ω × n, n̈ = −ω̇ × n − ω × ṅ and
+/// d³n/dt³ = −ω̈ × n − 2 ω̇ × ṅ − ω × n̈, where |ω| ≤ Ω, |ω̇| ≤ f Ω² (asymmetric_top.h) and therefore |ω̈| ≤ 2 f²Ω³. As
+/// |n| = 1, (a² + c²)/2 may be subtracted from the eigenvalues of S in h² = n·S n, whose magnitude is then at most
+/// (a² − c²)/2:
 ///
 ///     |(h²)''|/2 = |ṅ·S ṅ + n·S n̈| ≤ (a² − c²) Ω² (1 + f/2)
 ///     |(h²)'''|/2 = |3 ṅ·S n̈ + n·S d³n/dt³| ≤ (a² − c²) Ω³ (1 + f) (2 + f).
@@ -147,7 +149,7 @@ class TumblingRotation {
     }
   }
 
-  // −x·(dω/dt × n)
+  // Adds −x·(dω/dt × n) to ḧ.
   void add_angular_acceleration(SupportRates<SimdPair>& rates, const SupportOf<SimdPair>& support,
                                 const Axis3& n) const {
     rates.second += support.s2 * dot(angular_acceleration_, n.e1) -
@@ -166,10 +168,10 @@ class TumblingRotation {
  private:
   std::array<Vec3, 2> semi_axes_;
   std::array<AsymmetricTop, 2> tops_;
-  std::array<double, 2> start_;  ///< their times at time 0
+  std::array<double, 2> start_;  ///< times of the tops at time 0 of the flights
   Vec3Of<SimdPair> angular_acceleration_;
   SimdPair max_speed_, largest_acceleration_, cc_;
-  SimdPair second_, third_;  // bounds of the derivatives of h², halved
+  SimdPair second_, third_;  // half the bounds of the derivatives of h²
 };
 
 }  // namespace vitrel::detail

@@ -8,29 +8,29 @@
 /// @file
 /// The time at which two bodies in free flight, possibly growing, first touch.
 ///
-/// Ellipses: conservative advancement along a separating axis. At time t the search finds an axis n with
-/// g(n, t) > 0 (support gap). For this fixed n
+/// For ellipses the method is conservative advancement along a separating axis. At time t the search finds an axis n
+/// with g(n, t) > 0 (support gap). For this fixed n
 ///
 ///     g(n, t + s) ≥ g + ġ s − ½ M s²,   M ≥ −g̈ over the step (ellipse_pair_in_flight.h),
 ///
 /// and the first root of the parabola is a time before which contact is impossible. These times approach the
 /// first contact from below: the search cannot skip a contact and needs no bracket.
 ///
-/// Steps, from the time at which the circumcircles touch:
+/// The steps start at the time at which the circumcircles touch:
 ///   1. If the parabola is positive up to the end, there is no contact.
-///   2. If 2 M g < ġ² up to the time −g/ġ, the gap closes at a rate that keeps its sign: Newton's method finds the
-///      contact, in time and in the angle of n together. The same parabola, backwards from there, proves that
-///      the gap was open all the way; without that proof the Newton step is discarded.
-///   3. Otherwise advance to the root of the parabola, and rotate n to its predicted optimum.
+///   2. If, to second order, the gap along the best axis reaches zero with at least half of the square of its rate,
+///      Newton's method finds the contact, in time and in the angle of n together. The parabola taken backwards from
+///      there proves that the gap was open all the way; without this proof the Newton step is discarded.
+///   3. Otherwise, the search advances to the root of the parabola and rotates n to its predicted optimum.
 ///
 /// Contact is declared at a gap of 0.75 … 1.25 `contact_gap`, slightly before the surfaces meet (tolerances.h), and
-/// only while they approach: with u the speed of the surfaces, earlier than the true contact by 1.25 contact_gap/u
-/// to first order. A pair that slides at this gap loses at most contact_gap/8: the step is never shorter than
-/// √(contact_gap/4M), so time always advances.
+/// only while they approach. With u the speed of the surfaces, it comes earlier than the true contact by at most 1.25
+/// contact_gap/u to first order. A pair that slides at this gap loses at most contact_gap/8: the step is never shorter
+/// than √(contact_gap/4M), so time always advances.
 ///
-/// In three dimensions two coordinates on the sphere replace the angle of n.
+/// In three dimensions, two coordinates on the sphere replace the angle of n.
 ///
-/// Disks, spheres, and pairs that are both round: closed form, the same contact gap.
+/// Disks, spheres, and pairs of which both are round are solved in closed form, with the same contact gap.
 namespace vitrel {
 
 enum class Outcome {
@@ -52,18 +52,19 @@ struct Prediction {
 using Prediction2 = Prediction<2>;
 using Prediction3 = Prediction<3>;
 
-/// Disk, Ellipse, GrowingEllipse; Sphere, Ellipsoid, GrowingEllipsoid.
+/// Instantiated for Disk, Ellipse, GrowingEllipse, Sphere, GrowingSphere, Ellipsoid, GrowingEllipsoid and
+/// TumblingEllipsoid.
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
                                        double contact_gap);
 
-/// Where a search may begin.
+/// A time and an axis with which a search may begin.
 template <int Dim>
 struct SearchStart {
-  double time;    ///< until then the bodies are disjoint
-  Vec<Dim> axis;  ///< probably separates them
+  double time;    ///< the bodies are disjoint until this time
+  Vec<Dim> axis;  ///< probably separates the bodies
 };
-/// The same, for bodies that are not round.
+/// Starts the search at `start`. Instantiated for all these bodies but disks and spheres.
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
                                        double contact_gap, const SearchStart<B::dimension>& start);

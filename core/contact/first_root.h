@@ -11,7 +11,7 @@ namespace vitrel::detail {
 
 constexpr double no_contact = std::numeric_limits<double>::infinity();
 
-/// The first root of gap + rate s − ½ M s² for gap ≥ 0 and any M; infinity if there is none.
+/// Returns the first root of gap + rate s − ½ M s² for gap ≥ 0 and any M; infinity if there is none.
 inline double first_root(double gap, double rate, double acceleration) {
   const double discriminant = rate * rate + 2 * acceleration * gap;
   if (!(discriminant >= 0)) return no_contact;
@@ -20,8 +20,8 @@ inline double first_root(double gap, double rate, double acceleration) {
   return acceleration > 0 ? (rate + root) / acceleration : no_contact;
 }
 
-/// The same in a batch, with M < 0 replaced by 0: infinity if the root lies beyond the horizon, 0 if the gap
-/// is not positive. The scalar form makes use of M < 0, which lengthens its steps; here the branch would
+/// Returns the first roots of a batch, with M < 0 replaced by 0: infinity if the root lies beyond the horizon, 0 if the
+/// gap is not positive. The scalar form makes use of M < 0, which lengthens its steps; in a batch, the branch would
 /// cost more than it gains.
 template <class T>
 VITREL_INLINE T first_root(const T& gap, const T& rate, const T& acceleration_bound,

@@ -19,14 +19,14 @@ struct alignas(64) FlightRecord {
 
   struct Rotation {
     AngularVelocity<dimension> angular_velocity;
-    /// Ω, the maximum of |ω|; otherwise it is constant.
+    /// The maximum Ω of |ω| of a tumbling body; |ω| of other bodies is constant.
     [[no_unique_address]] std::conditional_t<tumbles, double, Empty> max_angular_speed;
     Orientation<dimension> orientation;
   };
 
   Vec<dimension> position, velocity;
-  double time = 0;  ///< local clock of position and orientation
-  /// Its contacts up to this time are known.
+  double time = 0;  ///< time of position and orientation
+  /// The contacts of the particle are known up to this time.
   double known_until = std::numeric_limits<double>::infinity();
   [[no_unique_address]] std::conditional_t<has_rotation, Rotation, Empty> rotation;
 
@@ -43,7 +43,7 @@ struct alignas(64) FlightRecord {
       return AngularVelocity<dimension>::Zero();
   }
   Pose<dimension> pose() const { return {position, orientation()}; }
-  /// The pose of a tumbling body follows from its AsymmetricTop.
+  /// Returns the pose at time t. (The pose of a tumbling body follows from its AsymmetricTop.)
   Pose<dimension> pose_at(double t) const requires(!tumbles) {
     if constexpr (has_rotation)
       return advanced(pose(), motion(), t - time);
@@ -65,15 +65,15 @@ struct alignas(64) FlightRecord {
 
 }  // namespace detail
 
-/// What predictions read of a particle in flight: one cache line, for ellipsoids two. Its numbers are in a row, so that
-/// the records of several partners can be transposed in registers (simd_batch.h).
+/// The data of a particle in flight that predictions read: one cache line, or two for ellipsoids. Its numbers are
+/// contiguous, so that the records of several partners can be transposed in registers (simd_batch.h).
 ///
-/// Spheres rotate uniformly, and no event depends on it: their rotation is not part of the record.
+/// Spheres rotate uniformly and no event depends on their rotation, so it is not part of the record.
 template <Body B>
 using FlightRecord =
     detail::FlightRecord<B::dimension, B::dimension == 2 || !RoundBody<B>, tumbles<B>>;
 
-/// A record at time 0, or at the given time.
+/// Returns a record at time 0, or at the given time.
 template <Body B>
 FlightRecord<B> flight_record(const Pose<B::dimension>& pose, const Motion<B::dimension>& motion,
                               double time = 0,
@@ -86,12 +86,12 @@ FlightRecord<B> flight_record(const Pose<B::dimension>& pose, const Motion<B::di
   return record;
 }
 
-/// Where the numbers of a record are, counted from its first.
+/// The indices of the numbers of a record, counted from its first.
 template <int Dim>
 struct RecordLayout {
   static constexpr int position = 0, velocity = Dim, time = 2 * Dim, known_until = 2 * Dim + 1;
   static constexpr int angular_velocity = 2 * Dim + 2;
-  static constexpr int max_angular_speed = angular_velocity + 3;  // of tumbling bodies
+  static constexpr int max_angular_speed = angular_velocity + 3;  // tumbling bodies only
   static constexpr int orientation =
       angular_velocity + (Dim == 2 ? 1 : 4);  // quaternion: x, y, z, w
   static constexpr int translation_size = 2 * Dim + 2, size = Dim == 2 ? 8 : 16;

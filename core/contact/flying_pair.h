@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// What two ellipses and two ellipsoids in free flight, possibly growing, have in common.
+/// The common part of a pair of ellipses and of a pair of ellipsoids in free flight, possibly growing.
 template <class Pair>
 class FlyingPair {
   using Vector = decltype(Pair::d);
@@ -14,16 +14,16 @@ class FlyingPair {
  public:
   const Vector& d0() const { return d0_; }
   const Vector& v() const { return v_; }
-  /// Sum of the circumradii at time 0, and its rate of growth.
+  /// The sum of the circumradii at time 0, and its rate of growth.
   double reach() const { return reduce(circumradius_ * size0_); }
   double reach_growth() const { return reduce(circumradius_ * growth_); }
-  /// The time in which the growing bodies grow by the gap and their present circumradii together: their time
-  /// scale, infinite if none grows.
+  /// The time scale of growth: the time in which the growing bodies together grow by the gap plus their present
+  /// circumradii, infinite if none grows.
   double doubling_time(double gap) const {
     return (reduce(circumradius_ * pair_.size) + gap) / reduce(circumradius_ * max(growth_, 0));
   }
 
-  /// A time in which no size changes by more than a thousandth.
+  /// Returns a time in which no size changes by more than a thousandth.
   double short_time() const {
     return std::min(time_of_little_growth(pair_.size[0], growth_[0]),
                     time_of_little_growth(pair_.size[1], growth_[1]));
@@ -63,7 +63,7 @@ class FlyingPair {
   Vector d0_, v_;
   SimdPair size0_, growth_, circumradius_;
   double time_ = 0;
-  Pair pair_;  // at time_
+  Pair pair_;  // the pair at time_
 
  private:
   template <class B>

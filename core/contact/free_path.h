@@ -10,7 +10,7 @@ struct FreePath {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   double length;
   std::uint32_t partner;     ///< id of the particle hit, or none
-  double offset_at_contact;  ///< along the path, from the moving centre to that of the partner
+  double offset_at_contact;  ///< along the path, from the moving centre to the partner's centre
 };
 
 }  // namespace vitrel

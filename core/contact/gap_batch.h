@@ -3,17 +3,17 @@
 #include "core/contact/simd_batch.h"
 
 /// @file
-/// Lower bounds of the gaps between one body and several others, all at rest: for disks and spheres the
-/// distances of the surfaces, for ellipses (ellipse_gap_batch.h) and ellipsoids (ellipsoid_gap_batch.h) the
-/// support gap along a good axis (ellipse_gap.h).
+/// Lower bounds of the gaps between one body and several others, all at rest. For disks and spheres they are the
+/// distances of the surfaces; for ellipses (ellipse_gap_batch.h) and ellipsoids (ellipsoid_gap_batch.h), the support
+/// gaps along a good axis (ellipse_gap.h).
 namespace vitrel {
 
-/// `set(k, …)` fills lane k, where d runs to the centre of the other body; then `evaluate()` computes
-/// `gap(k)` and its `axis(k)`. Axes are improved until all gaps exceed `limit`.
+/// `set(k, …)` fills lane k, where d points to the centre of the other body; then `evaluate()` computes `gap(k)` and
+/// its `axis(k)`. Axes are improved until all gaps exceed `limit`.
 template <class Shape>
 class GapBatch;
 
-/// Disks and spheres.
+/// The batch for disks and spheres.
 template <int Dim>
 class GapBatch<Ball<Dim>> {
  public:

@@ -15,8 +15,8 @@ template <int Dim>
 struct SupportGapOf {
   double
       gap;  ///< the distance if positive; otherwise the bodies touch or overlap, and only the sign counts
-  /// Unit vector from 1 to 2: the normal of the closest points; of an overlapping pair, of the
-  /// bodies scaled about their centres to touch.
+  /// The unit vector from 1 to 2 that is normal to the surfaces at the closest points; for an overlapping pair, at the
+  /// point where the bodies touch when they are scaled about their centres.
   Vec<Dim> normal;
 };
 using SupportGap = SupportGapOf<2>;
@@ -31,13 +31,13 @@ inline Vec3 normal_of(const Axis3& axis) {
   return vector(axis.n);
 }
 
-/// The unit vector n rotated by `angle`, to third order.
+/// Returns the unit vector n rotated by `angle`, to third order.
 inline Vec2 turned(const Vec2& n, double angle) {
   const double q = 0.5 * angle;
   const double scale = 1 / (1 + q * q);
   return (1 - q * q) * scale * n + angle * scale * perpendicular(n);
 }
-/// The axis rotated by a step in its tangent plane.
+/// Returns the axis rotated by a step in its tangent plane.
 inline Axis3 turned(const Axis3& axis, const Tangent& step) {
   const double q = 0.5 * norm(step);
   const double scale = 1 / (1 + q * q);
@@ -54,13 +54,13 @@ inline Tangent clamped(const Tangent& step, double longest) {
   return length <= longest ? step : Tangent(longest / length * step);
 }
 
-/// C(λ)⁻¹d with λ : 1 − λ in the ratio of the radii along d: the best axis for circles, and a good one while the
-/// bodies are not close. It need not separate them.
+/// Returns C(λ)⁻¹d for the λ at which λ : 1 − λ is the ratio of the radii along d. This is the best axis for circles,
+/// and a good one while the bodies are not close. It need not separate them.
 Vec2 initial_axis(const EllipsePair& pair);
 Axis3 initial_axis(const EllipsoidPair& pair);
 
-/// The first separating axis C(λ)⁻¹d found while maximising F(λ) from there; for an overlapping pair the axis at
-/// the maximum of F, which is the common normal of the bodies scaled to touch.
+/// The first separating axis C(λ)⁻¹d found while maximising F(λ) from the λ of initial_axis. For an overlapping pair it
+/// is the axis at the maximum of F, which is the common normal of the bodies scaled to touch.
 template <class Axis>
 struct SeparatingAxis {
   Axis n;
@@ -69,11 +69,11 @@ struct SeparatingAxis {
 SeparatingAxis<Vec2> find_separating_axis(const EllipsePair& pair);
 SeparatingAxis<Axis3> find_separating_axis(const EllipsoidPair& pair);
 
-/// One damped Newton step of n towards the maximum of g. `here` is gap_along at n, before and after. Returns
-/// false, and changes nothing, if no step improves g.
+/// Moves n by one damped Newton step towards the maximum of g. `here` is gap_along at n, before and after the step.
+/// Returns false, and changes nothing, if no step improves g.
 template <class Pair, class Axis>
 [[gnu::noinline]] bool improve_axis(const Pair& pair, Axis& n, decltype(gap_along(pair, n))& here) {
-  // A gain below the rounding of g = n·d − h₁ − h₂ is not visible.
+  // A gain below the rounding of g = n·d − h₁ − h₂ would have no effect.
   constexpr double negligible = 1e-17;
   if (!here.is_concave() || here.gain() < negligible * dot(normal_of(n), pair.d)) return false;
   auto turn = here.newton();
@@ -89,11 +89,12 @@ template <class Pair, class Axis>
   return false;
 }
 
-// Compiled apart: beside the search for contacts, which seldom needs it, it would cost that 2 % of its instructions.
+// improve_axis is compiled separately: if it were compiled with the search for contacts, which seldom needs it, that
+// search would take 2 % more instructions.
 extern template bool improve_axis(const EllipsePair&, Vec2&, GapAlongAxis&);
 extern template bool improve_axis(const EllipsoidPair&, Axis3&, GapAlongAxis3&);
 
-/// Newton iteration on ∇g = 0 from an axis that maximises g to rounding. g is flat at its maximum, so such an
+/// Solves ∇g = 0 by Newton's method from an axis that maximises g to rounding. g is flat at its maximum, so such an
 /// axis is accurate to √ε only; the gradient makes it accurate to ε.
 template <class Pair, class Axis>
 void polish_axis(const Pair& pair, Axis& n, const decltype(gap_along(pair, n))& here) {
@@ -110,7 +111,7 @@ void polish_axis(const Pair& pair, Axis& n, const decltype(gap_along(pair, n))& 
   }
 }
 
-/// The gap along n after improve_axis, repeated until it is `enough` or at its maximum.
+/// Repeats improve_axis until the gap along n is at least `enough` or at its maximum, and returns it.
 template <class Pair, class Axis>
 auto improved_gap(const Pair& pair, Axis& n, double enough) {
   constexpr int max_steps = 60;
@@ -120,7 +121,7 @@ auto improved_gap(const Pair& pair, Axis& n, double enough) {
   return here;
 }
 
-/// The largest support gap.
+/// Returns the largest support gap.
 template <class Pair>
 auto largest_gap(const Pair& pair) -> SupportGapOf<decltype(pair.d)::SizeAtCompileTime> {
   auto [n, separates] = find_separating_axis(pair);
@@ -130,8 +131,8 @@ auto largest_gap(const Pair& pair) -> SupportGapOf<decltype(pair.d)::SizeAtCompi
   return {here.gap, normal_of(n)};
 }
 
-/// Whether two bodies at the distance d are at least `margin` apart; `make_pair` is called if their radii do not say
-/// so.
+/// Returns whether two bodies at the distance d are at least `margin` apart. Calls `make_pair` only if their radii do
+/// not decide.
 template <class Body>
 bool are_separated(const Body& one, const Body& two, const auto& d, double margin,
                    const auto& make_pair) {

@@ -5,8 +5,9 @@
 #include "core/contact/contact_queries.h"
 
 /// @file
-/// What overlap tests and free paths need of a body at rest, apart from its place: of most shapes the orientation, of
-/// ellipses (ellipse_batch.h) and ellipsoids (ellipsoid_overlap_batch.h) what is computed from it.
+/// The data of a body at rest, without its position, that overlap tests and free paths need. For most shapes this is
+/// the orientation; for ellipses (ellipse_batch.h) and ellipsoids (ellipsoid_overlap_batch.h) it is computed from the
+/// orientation.
 namespace vitrel {
 
 template <class Shape>
@@ -17,7 +18,7 @@ struct OrientedBody {
 
 namespace detail {
 
-/// The pose of a body whose centre is the origin.
+/// Returns the pose of a body whose centre is the origin.
 template <class Shape>
 Pose<Shape::dimension> pose_of(const OrientedBody<Shape>& body) {
   return {Vec<Shape::dimension>::Zero(), body.orientation};
@@ -25,14 +26,14 @@ Pose<Shape::dimension> pose_of(const OrientedBody<Shape>& body) {
 
 }  // namespace detail
 
-/// Whether two bodies keep a margin (contact_queries.h).
+/// Returns whether two bodies keep a margin (contact_queries.h).
 template <class Shape>
 bool separated(const OrientedBody<Shape>& one, const OrientedBody<Shape>& two,
                const Vec<Shape::dimension>& d, double margin) {
   return separated(one.shape, detail::pose_of(one), two.shape, detail::pose_of(two), d, margin);
 }
 
-/// The support gap of two bodies (contact_queries.h).
+/// Returns the support gap of two bodies (contact_queries.h).
 template <class Shape>
 SupportGapOf<Shape::dimension> support_gap(const OrientedBody<Shape>& one,
                                            const OrientedBody<Shape>& two,
@@ -40,7 +41,7 @@ SupportGapOf<Shape::dimension> support_gap(const OrientedBody<Shape>& one,
   return support_gap(one.shape, detail::pose_of(one), two.shape, detail::pose_of(two), d);
 }
 
-/// The same body with another shape.
+/// Returns the body with another shape.
 template <class Shape>
 OrientedBody<Shape> with_shape(const OrientedBody<Shape>& body, const Shape& shape) {
   return {shape, body.orientation};

@@ -10,15 +10,15 @@
 
 namespace vitrel {
 
-/// How far can one body of any shape move along x (`direction` 0), y (1) or z (2), at a fixed orientation, before it
-/// touches another at rest?
+/// The free path of event-chain Monte Carlo for any shape: how far one body can move along x (`direction` 0), y (1) or
+/// z (2), at a fixed orientation, before it touches another one that is at rest.
 ///
-/// A path of length s along e shortens every n·d by s n·e: with the support gap g and its normal n the path is free
-/// up to g/(n·e), and never ends if n·e ≤ 0. The support gap at the end of that path gives the next step. As the
-/// distance of convex bodies is a convex function of s, these are the steps of Newton's method from below: they never
-/// pass the contact, and reach it, whatever the curvature of the surfaces.
+/// A path of length s along e shortens every n·d by s n·e. With the support gap g and its normal n, the path is
+/// therefore free up to g/(n·e), and never ends if n·e ≤ 0. The support gap at the end of this free path gives the next
+/// step. As the distance of convex bodies is a convex function of s, these are the steps of Newton's method from below:
+/// they never pass the contact, and reach it, whatever the curvature of the surfaces.
 ///
-/// Contact is declared with the surfaces between `gap` and 1¼ `gap` apart. A pair that is closer already, and
+/// Contact is declared when the surfaces are between `gap` and 1¼ `gap` apart. A pair that is already closer, and
 /// approaching, touches at once. Ellipses (ellipse_free_path_batch.h), ellipsoids (ellipsoid_free_path_batch.h) and
 /// round bodies (round_free_path_batch.h) have faster searches.
 template <class Shape, int direction>
@@ -36,14 +36,14 @@ class PairFreePaths {
         reach_(body.shape.circumradius() + 1.25 * gap),
         end_{max_length, FreePath::none, 0} {}
 
-  /// How far behind, aside and ahead the centres of particles that can end the path may be, if no circumradius exceeds
-  /// `largest`.
+  /// Returns how far behind, aside or ahead of the moving body the centre of a particle that can end the path may be,
+  /// if no circumradius exceeds `largest`.
   double reach_behind(double largest) const { return reach_ + largest; }
   double reach_aside(double largest) const { return reach_ + largest; }
   double reach_ahead(double largest) const { return end_.length + reach_ + largest; }
 
-  /// Adds the bodies in the lanes of `mask`; the separations d are `offset` + their positions, their ids are
-  /// `first_id` + lane, and group.particle their numbers among all bodies.
+  /// Adds the bodies in the lanes of `mask`. The separations d are `offset` + their positions, their ids are
+  /// `first_id` + lane, and group.particle holds their numbers among all bodies.
   template <class Group>
   void add(const Group& group, std::uint32_t first_id, const Vec<Dim>& offset, const Mask& mask) {
     const SimdBatch ahead = group.template coordinate<direction>() + offset[direction];
@@ -60,7 +60,7 @@ class PairFreePaths {
     }
   }
 
-  /// The free path among all bodies added.
+  /// Returns the free path among all bodies added.
   FreePath end() const { return end_; }
 
  private:

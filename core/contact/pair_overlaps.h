@@ -8,24 +8,24 @@
 
 namespace vitrel {
 
-/// Does one body of any shape keep a margin to all of several others at rest? Circumspheres a margin apart prove the
-/// pair separated, overlapping inspheres prove an overlap, and separated() (oriented_body.h) decides all others, one by
-/// one. Ellipses (ellipse_overlap_batch.h) and ellipsoids (ellipsoid_overlap_batch.h) have faster tests with the same
-/// answers.
+/// The overlap test of trial moves for any shape: whether one body keeps a margin to all of several others at rest.
+/// Circumspheres a margin apart prove the pair separated, overlapping inspheres prove an overlap, and separated()
+/// (oriented_body.h) decides all other pairs one by one. Ellipses (ellipse_overlap_batch.h) and ellipsoids
+/// (ellipsoid_overlap_batch.h) have faster tests with the same answers.
 template <class Shape>
 class PairOverlaps {
  public:
   static constexpr int Dim = Shape::dimension;
   using Body = OrientedBody<Shape>;
-  /// Bit k is lane k.
+  /// A set of lanes: bit k is lane k.
   using Lanes = unsigned;
 
-  /// `bodies` are all particles; they and `body` must outlive the test. margin ≥ 0.
+  /// `bodies` are all particles; they and `body` must outlive the test. Requires margin ≥ 0.
   PairOverlaps(const Body& body, const Body* bodies, double margin)
       : body_(body), bodies_(bodies), margin_(margin) {}
 
-  /// False if the body is known to be closer than the margin to one of those in these lanes. The separations d are
-  /// `offset` + their positions, and group.particle their numbers among all bodies. Adds the number of pairs that
+  /// Returns false if the body is closer than the margin to one of the bodies in these lanes. The separations d are
+  /// `offset` + their positions, and group.particle holds their numbers among all bodies. Adds the number of pairs that
   /// separated() decided to `scalar_tests`.
   template <class Group>
   bool may_be_clear_of(const Group& group, const Vec<Dim>& offset, Lanes lanes,
@@ -44,7 +44,7 @@ class PairOverlaps {
     return true;
   }
 
-  /// None wait for a full batch, so the answer is yes.
+  /// No pairs wait for a full batch, so the answer is always yes.
   bool rest_is_clear(std::uint64_t& /*scalar_tests*/) const { return true; }
 
  private:

@@ -13,7 +13,7 @@ struct Derivatives {
   double slope, curvature;
 };
 
-/// F as the rational function of t = λ/(1−λ) in the header.
+/// F as a function of t = λ/(1−λ), in the rational form of the header.
 struct ContactFunction {
   double p1, p2;  ///< pᵢ = dᵀ adj(Σᵢ) d
   double d1, d2;  ///< Dᵢ = det Σᵢ
@@ -88,7 +88,7 @@ class Cholesky {
   }
 
  private:
-  Mat3 l_;  ///< its lower triangle
+  Mat3 l_;  ///< only the lower triangle is used
 };
 
 /// Two ellipsoids, given by the matrices of their semi-axes (as columns), and d.
@@ -97,7 +97,7 @@ struct EllipsoidPair {
   Vec3 d;
   Mat3 sigma1 = axes1 * axes1.transpose(), sigma2 = axes2 * axes2.transpose();
 
-  /// y = (Σ₁ + tΣ₂)⁻¹d, along the common normal at the maximum of F.
+  /// Returns y = (Σ₁ + tΣ₂)⁻¹d, which is along the common normal at the maximum of F.
   Vec3 direction(double t) const { return Cholesky(sigma1 + t * sigma2).solve(d); }
 
   double height1(const Vec3& n) const { return norm(axes1.transpose() * n); }
@@ -121,9 +121,9 @@ Mat3 semi_axes(const Ellipsoid& ellipsoid, const Quaternion& orientation) {
   return rotation_matrix(orientation) * ellipsoid.semi_axes.asDiagonal();
 }
 
-/// The root of the slope in [low, high], where the slope falls from positive to negative.
+/// Returns the root of the slope in [low, high], where the slope falls from positive to negative.
 double maximizer(const auto& f, double low, double high) {
-  // The slope is a sum of four terms of order 1: smaller values are rounding.
+  // The slope is a sum of four terms of order 1, so smaller values are rounding.
   constexpr double negligible = 4 * std::numeric_limits<double>::epsilon();
   constexpr int max_steps = 60;  // enough for bisection alone
   double t = std::sqrt(low * high);
@@ -145,7 +145,7 @@ PerramWertheim<2> perram_wertheim(const Ellipse& one, double angle1, const Ellip
                                   double angle2, const Vec2& d) {
   const Axes first(one, angle1);
   const Axes second(two, angle2);
-  // Normalise d, so that the square of a tiny d does not underflow.
+  // d is normalised so that the square of a tiny d does not underflow.
   const double distance = norm(d);
   if (distance == 0) return {0, 0.5, Vec2::UnitX(), Vec2::Zero()};
   const Vec2 e = d / distance;
@@ -154,7 +154,7 @@ PerramWertheim<2> perram_wertheim(const Ellipse& one, double angle1, const Ellip
                           second.determinant(), mixed_determinant(first, second)};
   const double t = maximizer(f, one.b / two.a, one.a / two.b);
   const Vec2 normal = normalized(first.adjugate_times(e) + t * second.adjugate_times(e));
-  // The surface of ellipse 1 has normal n at Σ₁n/h₁(n); scaled by μ it is the common point.
+  // The surface of ellipse 1 has the normal n at Σ₁n/h₁(n); this point scaled by μ is the common point.
   const Vec2 sigma_n = first.shape_times(normal);
   const double mu = distance * std::sqrt(f.value(t));
   return {mu * mu, t / (1 + t), normal, (mu / std::sqrt(dot(normal, sigma_n))) * sigma_n};

@@ -10,15 +10,15 @@
 #include "core/contact/pair_overlaps.h"
 
 /// @file
-/// Bodies at rest, as Monte Carlo knows them: how each shape is stored, and how its overlaps and free paths are found.
+/// Bodies at rest in Monte Carlo: how each shape is stored, and how its overlaps and free paths are found.
 namespace vitrel {
 
-/// For any shape with `separated` and `support_gap` (contact_queries.h):
+/// The types for any shape with `separated` and `support_gap` (contact_queries.h):
 ///
-///     Body        one of them, apart from its place
-///     Batch       several, in SIMD lanes
-///     Overlaps    whether one keeps a margin to others
-///     FreePaths   how far one can move along x, y or z before it touches another
+///     Body        one body, without its position
+///     Batch       several bodies, in SIMD lanes
+///     Overlaps    whether one body keeps a margin to others
+///     FreePaths   how far one body can move along x, y or z before it touches another
 template <class Shape>
 struct RestingBodies {
   using Body = OrientedBody<Shape>;
@@ -56,7 +56,7 @@ struct RestingBodies<Ellipsoid> {
   }
 };
 
-// The functions of oriented_body.h but `support_gap`, which the free paths of these shapes do not need.
+// These are the functions of oriented_body.h except `support_gap`, which the free paths of these shapes do not need.
 inline bool separated(const OrientedEllipse& one, const OrientedEllipse& two, const Vec2& d,
                       double margin) {
   return separated(one.shape, one.axis, two.shape, two.axis, d, margin);

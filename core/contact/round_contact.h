@@ -7,21 +7,22 @@
 #include "core/contact/simd_batch.h"
 
 /// @file
-/// The contact of two disks or spheres in free flight, in closed form, also of ellipses and ellipsoids that are round.
+/// The contact of two disks or spheres in free flight, in closed form. It also serves ellipses and ellipsoids that are
+/// round.
 namespace vitrel::detail {
 
-/// The first t ≥ 0 with |d + v t| = r + γ t, for circles or spheres. With a = v² − γ², b = d·v − r γ and
-/// c = d² − r² it is a root of a t² + 2 b t + c; root = √(b² − a c).
-/// b < 0: the surfaces approach; 0 if they already touch (c ≤ 0).
+/// The first t ≥ 0 with |d + v t| = r + γ t, for circles or spheres, is a root of a t² + 2 b t + c, where a = v² − γ²,
+/// b = d·v − r γ and c = d² − r²; `root` is √(b² − a c). closing_time requires b < 0, which means that the surfaces
+/// approach, and returns 0 if they already touch (c ≤ 0).
 ///
-/// What precedes these formulas is written out where they are used: round_contact computes c as (|d| − r)(|d| + r),
-/// which is more accurate near contact; the batch of round_contacts.h saves the square root of d².
+/// The callers compute a, b and c themselves: round_contact computes c as (|d| − r)(|d| + r), which is more accurate
+/// near contact, and the batch of round_contacts.h avoids the square root of d².
 template <class T>
 VITREL_INLINE T closing_time(const T& b, const T& c, const T& root) {
   using std::max;
   return max(c / (root - b), T(0));
 }
-/// b ≥ 0 and a < 0: the centres recede, but the radii grow faster.
+/// overtaking_time requires b ≥ 0 and a < 0: the centres recede, but the radii grow faster.
 template <class T>
 VITREL_INLINE T overtaking_time(const T& a, const T& b, const T& root) {
   return (b + root) / -a;

@@ -6,8 +6,8 @@
 
 namespace vitrel {
 
-/// The earliest contact of a disk or sphere with several others in free flight, four at a time, in closed form: the
-/// first s ≥ 0 with |d + v s| = (R₁ + R₂) (σ + γ s) + contact gap, for approaching surfaces only.
+/// The earliest contact of a disk or sphere with several others in free flight, in closed form and four at a time. A
+/// contact is the first s ≥ 0 with |d + v s| = (R₁ + R₂) (σ + γ s) + contact gap, for approaching surfaces only.
 template <RoundBody B>
 class EarliestRoundContact {
   static constexpr int dimension = B::dimension;
@@ -23,7 +23,8 @@ class EarliestRoundContact {
     }
   }
 
-  /// Tests four partners, which get the numbers first, first + 1 … Contacts that a partner knows do not matter.
+  /// Tests four partners, which get the numbers first, first + 1 … Contacts later than a partner's `known_until` do not
+  /// count.
   VITREL_INLINE void test(const FlightRecord<B>* const (&partner)[simd_width],
                           const SimdBatch& radius, std::size_t first) {
     using Layout = RecordLayout<dimension>;

@@ -11,7 +11,7 @@ namespace vitrel {
 
 namespace detail {
 
-/// The squares of the distances of the centres from a path along x (`direction` 0), y (1) or z (2) through the origin.
+/// Returns the squared distances of the centres from a path along x (`direction` 0), y (1) or z (2) through the origin.
 template <int direction, class Group, class Offset>
 VITREL_INLINE SimdBatch aside_squared(const Group& group, const Offset& offset) {
   constexpr int dimension = Offset::RowsAtCompileTime;
@@ -28,8 +28,9 @@ VITREL_INLINE SimdBatch aside_squared(const Group& group, const Offset& offset) 
 
 }  // namespace detail
 
-/// How far can a disk or sphere move along x (`direction` 0), y (1) or z (2) before it touches others at rest, which are
-/// round as well? The interface is that of ellipse_free_path_batch.h.
+/// The free path of event-chain Monte Carlo for disks and spheres: how far one of them can move along x (`direction`
+/// 0), y (1) or z (2) before it touches others at rest, which are round as well. The interface is that of
+/// ellipse_free_path_batch.h.
 template <int direction, int Dim>
 class RoundFreePathBatch {
  public:

@@ -13,16 +13,16 @@
 #include "core/elementary.h"
 
 /// @file
-/// Arithmetic on the two bodies of a pair at once, and on a SIMD batch of pairs. Formulas are templates over the
-/// number of lanes.
+/// SIMD arithmetic on the two bodies of a pair at once, and on a batch of pairs. Formulas are templates over the number
+/// of lanes.
 ///
-/// The number of lanes is fixed, and every lane is rounded as a number alone would be: results do not depend on the
+/// The number of lanes is fixed, and every lane is rounded as a single number would be, so results do not depend on the
 /// instruction set. std::experimental::simd does the same, but takes several times as long to compile, and not every
 /// compiler has it.
 namespace vitrel {
 
-/// For short functions, whose vector arguments would otherwise pass through memory, and for functions that call many of
-/// them. With sanitizers their code would be too large.
+/// VITREL_INLINE is for short functions, whose vector arguments would otherwise pass through memory, and VITREL_FLATTEN
+/// for functions that call many of them. With sanitizers neither inlines, because the code would be too large.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define VITREL_INLINE inline
 #define VITREL_FLATTEN
@@ -41,7 +41,7 @@ constexpr int widest_register = 2;
 template <int width>
 using Register [[gnu::vector_size(width * sizeof(double))]] = double;
 template <int width>
-using MaskRegister = decltype(Register<width>{} < Register<width>{});  // every lane 0 or −1
+using MaskRegister = decltype(Register<width>{} < Register<width>{});  // every lane is 0 or −1
 
 VITREL_INLINE Register<2> square_root(const Register<2>& x) {
 #if defined(__SSE2__)
@@ -86,10 +86,10 @@ VITREL_INLINE unsigned bits(const FloatMaskRegister& mask) {
 
 }  // namespace detail
 
-/// One truth value for each of several pairs. Both sides of && and || are evaluated.
+/// One truth value for each of several pairs. && and || evaluate both operands.
 template <int lanes>
 struct alignas(lanes * sizeof(double)) SimdMask {
-  static constexpr int width = std::min(lanes, detail::widest_register);  // of a register
+  static constexpr int width = std::min(lanes, detail::widest_register);  // lanes per register
   static constexpr int parts = lanes / width;
   using Register = detail::MaskRegister<width>;
   Register part[parts];
@@ -126,7 +126,7 @@ struct alignas(lanes * sizeof(double)) SimdMask {
   VITREL_INLINE friend bool any_of(const SimdMask& x) { return x.bits() != 0; }
   VITREL_INLINE friend bool none_of(const SimdMask& x) { return x.bits() == 0; }
   VITREL_INLINE friend bool all_of(const SimdMask& x) { return x.bits() == (1u << lanes) - 1; }
-  /// The first true lane; there must be one.
+  /// Returns the first true lane; there must be one.
   VITREL_INLINE friend int find_first_set(const SimdMask& x) { return std::countr_zero(x.bits()); }
 };
 
@@ -144,11 +144,11 @@ struct alignas(lanes * sizeof(double)) Simd {
   VITREL_INLINE Simd(double value) {
     for (auto& one : part) one = value - Register{};
   }
-  /// The two numbers of a pair.
+  /// Sets the two numbers of a pair.
   VITREL_INLINE Simd(double first, double second) : part{{first, second}} {
     static_assert(lanes == 2);
   }
-  /// From and to `lanes` numbers in a row.
+  /// load and store read and write `lanes` contiguous numbers.
   VITREL_INLINE static Simd load(const double* from) {
     Simd result;
     for (int p = 0; p < parts; ++p, from += width)
@@ -209,13 +209,13 @@ struct alignas(lanes * sizeof(double)) Simd {
   VITREL_INLINE friend Mask operator>(const Simd& x, const Simd& y) { return y < x; }
   VITREL_INLINE friend Mask operator>=(const Simd& x, const Simd& y) { return y <= x; }
 
-  /// x where the mask is true, y elsewhere.
+  /// Returns x where the mask is true, and y elsewhere.
   VITREL_INLINE friend Simd select(const Mask& mask, const Simd& x, const Simd& y) {
     Simd result;
     for (int p = 0; p < parts; ++p) result.part[p] = mask.part[p] ? x.part[p] : y.part[p];
     return result;
   }
-  /// y if either is not a number.
+  /// min and max return y if x or y is not a number.
   VITREL_INLINE friend Simd min(const Simd& x, const Simd& y) {
     Simd result;
     for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] < y.part[p] ? x.part[p] : y.part[p];
@@ -232,10 +232,10 @@ struct alignas(lanes * sizeof(double)) Simd {
     return result;
   }
   VITREL_INLINE friend Simd abs(const Simd& x) { return copysign(x, Simd(0)); }
-  /// |x| with the sign of y.
+  /// Returns |x| with the sign of y.
   VITREL_INLINE friend Simd copysign(const Simd& x, const Simd& y) {
     using Bits = typename Mask::Register;
-    const auto sign = std::bit_cast<Bits>(-Register{});  // of −0.0
+    const auto sign = std::bit_cast<Bits>(-Register{});  // the bits of −0.0
     Simd result;
     for (int p = 0; p < parts; ++p)
       result.part[p] = std::bit_cast<Register>((std::bit_cast<Bits>(x.part[p]) & ~sign) |
@@ -265,7 +265,7 @@ using SimdPair = Simd<2>;
 
 namespace detail {
 
-/// ±1, the sign bit of each lane.
+/// Returns +1 or −1 in each lane, with the sign bit of x.
 template <int lanes>
 VITREL_INLINE Simd<lanes> signs(const Simd<lanes>& x) {
   return copysign(Simd<lanes>(1), x);
@@ -279,7 +279,7 @@ VITREL_INLINE T positive_part(const T& x) {
   return max(x, T(0));
 }
 
-/// As `directions`, one by one.
+/// Computes `directions` lane by lane, for angles of any size.
 template <int lanes>
 [[gnu::noinline]] void single_directions(const Simd<lanes>& angle, Simd<lanes>& x, Simd<lanes>& y) {
   for (int k = 0; k < lanes; ++k) {
@@ -291,7 +291,7 @@ template <int lanes>
 
 }  // namespace detail
 
-/// Unit vectors (x, y) at the angles: cosine and sine to within 4 units in the last place of 1.
+/// Computes unit vectors (x, y) at the angles: cosine and sine to within 4 units in the last place of 1.
 template <class T>
 VITREL_INLINE void directions(const T& angle, T& x, T& y) {
   if (!all_of(abs(angle) < detail::max_reducible_angle))
@@ -301,7 +301,7 @@ VITREL_INLINE void directions(const T& angle, T& x, T& y) {
 
 constexpr double max_small_angle = 1.5;
 
-/// As `directions`, for |angle| ≤ max_small_angle.
+/// Computes unit vectors as `directions` does, for |angle| ≤ max_small_angle.
 template <class T>
 VITREL_INLINE void small_angle_directions(const T& angle, T& x, T& y) {
   const T square = angle * angle;

@@ -7,7 +7,7 @@
 #include "core/geometry/ball.h"
 
 /// @file
-/// What all SIMD batches share: precomputed shape coefficients, and buffers that are filled lane by lane. One
+/// The parts that all SIMD batches share: precomputed shape coefficients, and buffers that are filled lane by lane. One
 /// lane holds one pair.
 namespace vitrel {
 
@@ -25,9 +25,9 @@ template <>
 struct ShapeCoefficients<Ellipsoid> {
   Vec3 semi_axes;
   double aa_minus_cc, cc;           ///< a² − c², c²
-  double max_angular_acceleration;  ///< of a tumbling body, over Ω² (asymmetric_top.h)
-  /// A tumbling body has ḧ ≤ max_tumbling Ω² with Ω = max |ω|. In the frame of space ḧ is at most Ω²(a² − c²)/c, which
-  /// it is with constant ω, plus |dω/dt| (a − c).
+  double max_angular_acceleration;  ///< maximum for a tumbling body, over Ω² (asymmetric_top.h)
+  /// A tumbling body has ḧ ≤ max_tumbling Ω² with Ω = max |ω|. In the frame of space, ḧ is at most Ω²(a² − c²)/c, the
+  /// bound for constant ω, plus |dω/dt| (a − c).
   double max_tumbling;
   explicit ShapeCoefficients(const Ellipsoid& ellipsoid)
       : semi_axes(ellipsoid.semi_axes),
@@ -86,7 +86,7 @@ VITREL_INLINE void load_columns(const Record* const (&record)[lanes], Simd<lanes
   }
 }
 
-/// One number per lane; written lane by lane, loaded and stored as a batch.
+/// One number per lane. A buffer is written lane by lane, and loaded and stored as a batch.
 template <int lanes>
 struct BatchBuffer {
   alignas(Simd<lanes>) double lane[lanes] = {};
@@ -96,19 +96,19 @@ struct BatchBuffer {
   void store(const Simd<lanes>& x) { x.store(lane); }
 };
 
-/// 0, 1, 2 …
+/// Returns the numbers 0, 1, 2 …
 template <int lanes>
 VITREL_INLINE Simd<lanes> lane_indices() {
   static constexpr double indices[] = {0, 1, 2, 3, 4, 5, 6, 7};
   return Simd<lanes>::load(indices);
 }
 
-/// True in all lanes but one.
+/// Returns true in all lanes but one.
 VITREL_INLINE SimdBatch::Mask all_lanes_but(int lane) {
   return !(lane_indices<simd_width>() == lane);
 }
 
-/// Rotates unit vectors by one Newton step in the angle, at most 1/2.
+/// Rotates unit vectors by one Newton step in the angle, of at most 1/2.
 template <class T>
 VITREL_INLINE void newton_rotate(T& nx, T& ny, const T& slope, const T& curvature) {
   const T angle = min(max(slope / curvature, T(-0.5)), T(0.5));

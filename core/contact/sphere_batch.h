@@ -6,8 +6,8 @@
 
 namespace vitrel {
 
-/// A batch of bodies at rest, as far as their circumspheres and inspheres (circles in the plane) tell. An empty lane
-/// holds one far away.
+/// A batch of bodies at rest, represented by their circumspheres and inspheres (circles in the plane). An empty lane
+/// holds a body far away.
 template <int Dim>
 struct SphereBatch {
   static constexpr double far_away = 1e150;  // its square is finite
@@ -32,7 +32,7 @@ struct SphereBatch {
     for (int k = 0; k < Dim; ++k) centre[k][lane] = position[k];
   }
   template <class Body>
-  void turn(int /*lane*/, const Body& /*body*/) {}  // spheres do not tell
+  void turn(int /*lane*/, const Body& /*body*/) {}  // spheres look the same at every orientation
   void copy(int lane, const SphereBatch& from, int from_lane) {
     move(lane, from.position(from_lane));
     outer[lane] = from.outer[from_lane];
@@ -49,7 +49,7 @@ struct SphereBatch {
   SimdBatch coordinate() const {
     return centre[k].load();
   }
-  /// The squares of the positions, moved by an offset.
+  /// Returns the squared lengths of the positions plus `offset`.
   SimdBatch squared_distances(const Vec<Dim>& offset) const {
     const SimdBatch dx = coordinate<0>() + offset.x(), dy = coordinate<1>() + offset.y();
     if constexpr (Dim == 2) {

@@ -13,12 +13,12 @@ namespace vitrel {
 
 namespace {
 
-// Ratios of squares that cannot be told from 0, well above underflow.
+// Smaller ratios of squares count as 0; the limit is well above underflow.
 constexpr double negligible = 1e-280;
 
-// Carlson's R_F(x, y, z) by duplication; at most one argument is 0.
+// Returns Carlson's R_F(x, y, z) by duplication; at most one argument may be 0.
 double carlson_rf(double x, double y, double z) {
-  constexpr double tolerance = 1.5e-3;  // the remainder of the series is of its sixth power
+  constexpr double tolerance = 1.5e-3;  // the remainder of the series is of sixth order in it
   for (;;) {
     const double mean = (x + y + z) / 3;
     const double dx = 1 - x / mean, dy = 1 - y / mean, dz = 1 - z / mean;
@@ -33,14 +33,14 @@ double carlson_rf(double x, double y, double z) {
   }
 }
 
-// K(m) by the arithmetic-geometric mean, from 1 − m > 0.
+// Returns K(m) by the arithmetic-geometric mean, given 1 − m > 0.
 double complete_integral(double one_minus_m) {
   double a = 1, g = std::sqrt(one_minus_m);
   while (a - g > 1e-8 * a) std::tie(a, g) = std::pair(0.5 * (a + g), std::sqrt(a * g));
   return std::numbers::pi / (a + g);
 }
 
-/// The axes in an order of their moments, as a right-handed frame.
+/// The principal axes in the order of their moments, as a right-handed frame.
 struct SortedAxes {
   std::array<int, 3> axis{0, 1, 2};
   double handedness;
@@ -74,8 +74,8 @@ struct SortedAxes {
   }
 };
 
-/// The rows are axes of a frame along the angular momentum, in the axes of the body: L̂ × (L̂ × e₃) reversed, L̂ × e₃
-/// reversed, L̂.
+/// Returns a frame whose third axis is along the angular momentum L. Its rows are its axes in body coordinates:
+/// L̂ × (L̂ × e₃) and −L̂ × e₃, both normalised, and L̂.
 Mat3 frame_along(const Vec3& momentum) {
   const Vec3 l = normalized(momentum);
   const double across = std::sqrt(l[0] * l[0] + l[1] * l[1]);
@@ -168,7 +168,7 @@ void AsymmetricTop::rotate_uniformly(const Mat3& axes, const Vec3& angular_veloc
   max_speed_ = norm(angular_velocity);
 }
 
-// u from −2K to 2K with these values, which are normalised up to rounding.
+// Returns u between −2K and 2K for these values of sn u and cn u, which are normalised up to rounding.
 double AsymmetricTop::start_phase(double sn, double cn) const {
   const double u = sn * carlson_rf(cn * cn, cn * cn + one_minus_m_ * sn * sn, cn * cn + sn * sn);
   return cn >= 0 ? u : std::copysign(2 * quarter_, sn) - u;
@@ -196,7 +196,7 @@ void AsymmetricTop::set_dual_series(double complementary_quarter, double pole) {
   const double nome = exponential(-2 * scale_ * quarter_);
   const CosineAndSine step = cosine_and_sine(2 * scale_ * pole);
   auto [cosine, sine] = cosine_and_sine(scale_ * pole);
-  double even_cosine = 1, even_sine = 0;  // of 2nπη/2K'
+  double even_cosine = 1, even_sine = 0;  // of the angle 2nπη/2K'
   double theta2 = 0, theta3 = -1, theta4 = -1, slope = 0;
   const auto turn = [&](double& c, double& s) {
     std::tie(c, s) = std::pair(c * step.cosine - s * step.sine, s * step.cosine + c * step.sine);

@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// A hard disk or sphere. Smooth (frictionless) collisions do not depend on its orientation, which predictions ignore.
+/// A hard disk or sphere. Smooth (frictionless) collisions do not depend on its orientation, so predictions ignore it.
 template <int Dim>
 struct Ball {
   static constexpr int dimension = Dim;
@@ -25,7 +25,7 @@ using Sphere = Ball<3>;
 
 static_assert(Body<Disk> && Body<Sphere>);
 
-/// The same shape, of another size.
+/// Returns the body with all lengths multiplied by `size`.
 template <int Dim>
 Ball<Dim> scaled(const Ball<Dim>& body, double size) {
   return {size * body.radius};

@@ -13,7 +13,7 @@ namespace vitrel {
 ///     max_support_rate        maximum rate of the support function per unit of angular speed,
 ///                             max |dh/dt|/|ω| (0 for a round body)
 ///
-/// Models: `Disk`, `Ellipse`, `Sphere`, `Ellipsoid`, and growing bodies (growing.h).
+/// Models: `Disk`, `Ellipse`, `Sphere`, `Ellipsoid`, `TumblingEllipsoid` and growing bodies (growing.h).
 template <class B>
 concept Body = requires(const B body) {
   { B::dimension } -> std::convertible_to<int>;
@@ -23,7 +23,7 @@ concept Body = requires(const B body) {
   { body.max_support_rate() } -> std::convertible_to<double>;
 };
 
-/// What a function that returns the number of an axis returns if there is none.
+/// The value that functions return in place of the index of an axis if there is no such axis.
 inline constexpr int no_axis = -1;
 
 /// A body in free flight: its pose at time 0 and its constant velocities.

@@ -5,7 +5,7 @@
 #include "core/geometry/ellipsoid.h"
 
 /// @file
-/// Bounding capsules of ellipsoids: a cheap test that separates long bodies.
+/// Bounding capsules of ellipsoids give a cheap test that separates long bodies.
 ///
 /// With semi-axes a ≥ b ≥ c, the ellipsoid lies within b of the segment of half-length (a² − b²)/a along its longest
 /// axis: the balls at t on the axis with squared radius b² (1 − t²/(a² − b²)) cover the spheroid a, b, b, and the last
@@ -18,7 +18,7 @@ struct Capsule {
   double radius = 0;
 };
 
-/// The capsule of a shape; `at` gives it at an orientation and size.
+/// Computes the capsule of a shape once; `at` places it with an orientation and a size.
 class CapsuleOf {
  public:
   explicit CapsuleOf(const Ellipsoid& shape) {
@@ -36,15 +36,16 @@ class CapsuleOf {
   double half_length_, radius_;
 };
 
-/// Whether two capsules, the second at d, are proved to be farther apart than `limit`. The lines of their axes decide
-/// most pairs. The closest points of the segments are s h₁ and d + t h₂ with −1 ≤ s, t ≤ 1; for nearly parallel
-/// segments any s is nearly as good.
+/// Returns whether two capsules, the second at d from the first, are proved to be farther apart than `limit`. The
+/// distance of the lines through their axes decides most pairs. The closest points of the segments are s h₁ and d + t
+/// h₂ with −1 ≤ s, t ≤ 1; for nearly parallel segments any s is nearly as good.
 inline bool farther_apart(const Capsule& one, const Capsule& two, const Vec3& d, double limit) {
   constexpr double parallel = 1e-14;
   const double a = squared_norm(one.half), b = dot(one.half, two.half), c = squared_norm(two.half);
   const double det = a * c - b * b;
   const double reach = one.radius + two.radius + limit;
-  // Includes the error of s for nearly parallel segments, 2√parallel of their lengths, and rounding.
+  // The factor and the last term include rounding and the error of s for nearly parallel segments, which is 2√parallel
+  // of their lengths.
   const double least = reach * reach * (1 + 1e-5) + 1e-8 * (a + c);
   const double along_normal = dot(d, one.half.cross(two.half));
   if (det > 1e-6 * a * c && along_normal * along_normal > least * det) return true;

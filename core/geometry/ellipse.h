@@ -24,25 +24,25 @@ struct Ellipse {
   double aspect_ratio() const { return a / b; }
   bool is_round() const { return a == b; }
   bool fits_into(const Ellipse& other) const { return a <= other.a && b <= other.b; }
-  /// Number of rotational degrees of freedom that smooth collisions change.
+  /// The number of rotational degrees of freedom that smooth collisions change.
   int rotations() const { return is_round() ? 0 : 1; }
   /// a² − b², without cancellation.
   double aa_minus_bb() const { return (a - b) * (a + b); }
-  /// Moment of inertia of the homogeneous ellipse over its mass, (a² + b²)/4.
+  /// The moment of inertia of the homogeneous ellipse divided by its mass, (a² + b²)/4.
   double inertia_per_mass() const { return 0.25 * (a * a + b * b); }
 };
 
 static_assert(Body<Ellipse>);
 
-/// The same shape, of another size.
+/// Returns the ellipse with both semi-axes multiplied by `size`.
 inline Ellipse scaled(const Ellipse& ellipse, double size) {
   return {size * ellipse.a, size * ellipse.b};
 }
 
-/// Perimeter, by the complete elliptic integral of the second kind: 4 a E(√(1 − b²/a²)).
+/// The perimeter 4 a E(√(1 − b²/a²)), where E is the complete elliptic integral of the second kind.
 double perimeter(const Ellipse& ellipse);
 
-/// Shape matrix Σ = R(θ) diag(a², b²) R(θ)ᵀ; the ellipse is the set of x with xᵀ Σ⁻¹ x ≤ 1.
+/// The shape matrix Σ = R(θ) diag(a², b²) R(θ)ᵀ; the ellipse is the set of x with xᵀ Σ⁻¹ x ≤ 1.
 Mat2 shape_matrix(const Ellipse& ellipse, double angle);
 
 }  // namespace vitrel

@@ -9,14 +9,17 @@ namespace vitrel {
 
 /// A hard ellipsoid with semi-axes (a, b, c) > 0 along its own x, y and z axes, in any order.
 ///
-/// Rotation. The body is homogeneous; its principal moments are m (b² + c²)/5 and cyclic permutations.
-/// Spheroids: smooth collisions exert no torque about the axis of symmetry, and in free flight the shape rotates
+/// The body is homogeneous, with principal moments m (b² + c²)/5 and cyclic permutations.
+///
+/// Smooth collisions exert no torque about the axis of symmetry of a spheroid, and in free flight its shape rotates
 /// uniformly about the angular momentum L with ω = L/I⊥. This ω is the stored angular velocity. With it the spheroid
-/// moves like a body with three equal moments I⊥, which is exact, and L = I⊥ ω. This holds with any spin about the axis
-/// (of rough bodies): the true angular velocity then is ω + (I⊥/I∥ − 1)(ω·a) a, a the axis of symmetry.
-/// Scalene bodies tumble by Euler's equations as `TumblingEllipsoid`. As plain ellipsoids they keep ω constant in flight:
-/// a model (after the article on packing) in which L is not conserved, but ω in the body frame is, and so is the energy.
-/// Phase-space volume is conserved, so all static averages are those of equilibrium. Growing bodies move like that.
+/// moves like a body with three equal moments I⊥, which is exact, and L = I⊥ ω. This also holds if rough contacts make
+/// the spheroid spin about its axis of symmetry a: the true angular velocity is then ω + (I⊥/I∥ − 1)(ω·a) a.
+///
+/// Scalene bodies tumble by Euler's equations as `TumblingEllipsoid`. As plain ellipsoids they keep ω constant in
+/// flight. This is a model (after the article on packing) that does not conserve L, but conserves ω in the body frame
+/// and therefore the energy. It also conserves phase-space volume, so all static averages are those of equilibrium.
+/// Growing bodies move in this way.
 struct Ellipsoid {
   static constexpr int dimension = 3;
   Vec3 semi_axes = Vec3::Ones();
@@ -34,27 +37,28 @@ struct Ellipsoid {
   bool fits_into(const Ellipsoid& other) const {
     return (semi_axes.array() <= other.semi_axes.array()).all();
   }
-  /// 0, 1 or 2 for a spheroid; no_axis if all three semi-axes differ, or none does.
+  /// 0, 1 or 2 for a spheroid; no_axis if all three semi-axes differ or all are equal.
   int symmetry_axis() const {
     if (is_round()) return no_axis;
     for (int k = 0; k < 3; ++k)
       if (semi_axes[(k + 1) % 3] == semi_axes[(k + 2) % 3]) return k;
     return no_axis;
   }
-  /// Three different semi-axes.
+  /// Whether all three semi-axes differ.
   bool is_scalene() const { return !is_round() && symmetry_axis() == no_axis; }
-  /// Number of rotational degrees of freedom that smooth collisions change: 0, 2 or 3.
+  /// The number of rotational degrees of freedom that smooth collisions change: 0, 2 or 3.
   int rotations() const { return is_round() ? 0 : is_scalene() ? 3 : 2; }
 
-  /// Moments of inertia over the mass about the own axes; of a spheroid I⊥ three times.
+  /// The principal moments of inertia divided by the mass; for a spheroid, three times I⊥.
   Vec3 inertia_per_mass() const;
-  /// The true ones, also of a spheroid about its axis.
+  /// The true principal moments divided by the mass, including I∥ of a spheroid.
   Vec3 full_inertia_per_mass() const;
 };
 
 static_assert(Body<Ellipsoid>);
 
-/// I⊥/I∥ of a spheroid: the factor from the part of the stored angular velocity along the axis to the true spin.
+/// Returns I⊥/I∥ of a spheroid: the true spin about the axis is this factor times the component of the stored angular
+/// velocity along the axis.
 inline double spin_factor(const Ellipsoid& spheroid) {
   const Vec3 squares = spheroid.semi_axes.cwiseAbs2();
   const int axis = spheroid.symmetry_axis();
@@ -62,16 +66,16 @@ inline double spin_factor(const Ellipsoid& spheroid) {
   return 0.5 * (squares[axis] + across) / across;
 }
 
-/// The same shape, of another size.
+/// Returns the ellipsoid with all semi-axes multiplied by `size`.
 inline Ellipsoid scaled(const Ellipsoid& ellipsoid, double size) {
   return {size * ellipsoid.semi_axes};
 }
 
-/// √Σ_kk, Σ the shape matrix: how far the ellipsoid reaches from its centre along the axes of space. It touches the plane
-/// x_k = β iff |β − r_k| = √Σ_kk.
+/// Returns √Σ_kk, where Σ is the shape matrix: how far the ellipsoid extends from its centre along the axes of space.
+/// It touches the plane x_k = β iff |β − r_k| = √Σ_kk.
 Vec3 half_extents(const Ellipsoid& ellipsoid, const Quaternion& orientation);
 
-/// Shape matrix Σ = R diag(a², b², c²) Rᵀ; the ellipsoid is the set of x with xᵀ Σ⁻¹ x ≤ 1.
+/// The shape matrix Σ = R diag(a², b², c²) Rᵀ; the ellipsoid is the set of x with xᵀ Σ⁻¹ x ≤ 1.
 Mat3 shape_matrix(const Ellipsoid& ellipsoid, const Quaternion& orientation);
 
 }  // namespace vitrel

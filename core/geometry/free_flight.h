@@ -4,16 +4,18 @@
 #include "core/geometry/body.h"
 
 /// @file
-/// Free flight between events: r + v t with a constant angular velocity ω; in space q(t) = exp(ω t/2) q. For spheres and
-/// spheroids this is the torque-free motion, with ω = L/I⊥ (ellipsoid.h); tumbling_ellipsoid.h has that of scalene bodies.
+/// Free flight between events: the position is r + v t, the angular velocity ω is constant, and in three dimensions
+/// q(t) = exp(ω t/2) q. For spheres and spheroids this is the torque-free motion, with ω = L/I⊥ (ellipsoid.h); the
+/// motion of scalene bodies is in tumbling_ellipsoid.h.
 ///
-/// This is apart from pose.h since most sources need only poses, and the products of quaternions take long to compile.
+/// These functions are not in pose.h because most sources need only poses, and products of quaternions take long to
+/// compile.
 namespace vitrel {
 
 /// exp(ω t/2): the rotation by the vector ω t.
 inline Quaternion rotation(const Vec3& turn) {
   const double half = 0.5 * norm(turn);
-  // sin(x)/x to rounding where the quotient would be lost.
+  // For small x, where the quotient could be lost, sin(x)/x equals 1 to rounding.
   const auto [cosine, sine] = cosine_and_sine(half);
   const double sinc = half < 1e-8 ? 1 : sine / half;
   Quaternion q;
@@ -22,7 +24,7 @@ inline Quaternion rotation(const Vec3& turn) {
   return q;
 }
 
-/// The pose after free flight for `time` (negative: before).
+/// Returns the pose after free flight for `time`, which may be negative.
 inline Pose2 advanced(const Pose2& pose, const Motion2& motion, double time) {
   return {pose.position + motion.velocity * time, pose.angle + motion.angular_velocity * time};
 }
@@ -31,7 +33,7 @@ inline Pose3 advanced(const Pose3& pose, const Motion3& motion, double time) {
           normalized(rotation(motion.angular_velocity * time) * pose.orientation)};
 }
 
-/// The pose at that time.
+/// Returns the pose at `time`, counted from the start of the flight.
 template <Body B>
 Pose<B::dimension> pose_at(const Flight<B>& flight, double time) {
   return advanced(flight.pose, flight.motion, time);

@@ -33,7 +33,7 @@ struct Growing {
   double max_support_rate() const { return size * shape.max_support_rate(); }
 };
 
-/// The time in which a size changes by a thousandth; longer than any if it is constant.
+/// Returns the time in which a size changes by a thousandth, or a practically infinite time if the size is constant.
 inline double time_of_little_growth(double size, double growth_rate) {
   constexpr double little = 1e-3, least = 1e-300;
   return little / std::max(std::abs(growth_rate) / size, least);
@@ -55,13 +55,13 @@ struct ShapeOf<Growing<Shape>> {
   using type = Shape;
   static constexpr bool grows = true;
 };
-/// The shape of a body at size 1: without its growth.
+/// The shape of a body without its growth, at size 1.
 template <class B>
 using BaseShape = typename ShapeOf<B>::type;
 template <class B>
 inline constexpr bool grows = ShapeOf<B>::grows;
 
-/// Disks and spheres, also growing ones.
+/// Disks and spheres, including growing ones.
 template <class B>
 concept RoundBody = Body<B> && std::same_as<BaseShape<B>, Ball<B::dimension>>;
 

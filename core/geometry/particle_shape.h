@@ -7,25 +7,26 @@
 #include "core/geometry/ellipsoid.h"
 
 /// @file
-/// What states, files, Monte Carlo, dynamics, analysis and pages know of the shape of a particle: the concept Body
-/// (body.h), and
+/// The interface of the shape of a particle that states, files, Monte Carlo, dynamics, analysis and pages use. It
+/// consists of the concept Body (body.h) and
 ///
-///     half_lengths()             half the sides of the smallest box along its own axes that contains it
-///     size()                     the length that its species call its size
-///     natural_mass()             that at the density of a round particle of radius 1 and mass 1
-///     is_round(), rotations()    whether turns are visible; how many of them smooth collisions change
-///     symmetry_axis()            in space: about which turns are not visible, or no_axis
-///     inertia_per_mass()         about the own axes
-///     fits_into(other)           whether it lies within another of the same centre and orientation
-///     scaled(shape, factor)      the same shape of another size
+///     half_lengths()             half the sides of the smallest box along the particle's own axes that contains it
+///     size()                     the length that its species calls its size
+///     natural_mass()             its mass at the density of a round particle of radius 1 and mass 1
+///     is_round()                 whether all rotations leave it unchanged
+///     rotations()                how many rotational degrees of freedom smooth collisions change
+///     symmetry_axis()            in three dimensions: the axis about which it is symmetric, or no_axis
+///     inertia_per_mass()         its moments of inertia about its own axes, divided by the mass
+///     fits_into(other)           whether it lies within another shape of the same centre and orientation
+///     scaled(shape, factor)      the shape with all lengths multiplied by the factor
 namespace vitrel {
 
 /// The shape of any particle of a configuration.
 template <int Dim>
 using ParticleShape = std::conditional_t<Dim == 2, Ellipse, Ellipsoid>;
 
-/// The shape with these half lengths along its own axes, if there is one: they are finite and above 0, in the plane the
-/// longer first.
+/// Returns the shape with these half lengths along its own axes, if there is one: they must be finite and positive, and
+/// in the plane the longer must come first.
 template <int Dim>
 std::optional<ParticleShape<Dim>> shape_of(const Vec<Dim>& half_lengths) {
   if (!(half_lengths.allFinite() && half_lengths.minCoeff() > 0)) return std::nullopt;
@@ -36,7 +37,7 @@ std::optional<ParticleShape<Dim>> shape_of(const Vec<Dim>& half_lengths) {
     return Ellipsoid{half_lengths};
   }
 }
-/// What `shape_of` asks of half lengths, as messages say it.
+/// The condition of `shape_of` on half lengths, in the words of messages.
 template <int Dim>
 constexpr const char* half_lengths_rule() {
   return Dim == 2 ? "a ≥ b > 0" : "three semi-axes above 0";

@@ -9,9 +9,9 @@ namespace vitrel {
 
 /// A rectangular periodic box centred at the origin: coordinates run over [−L/2, L/2).
 ///
-/// A pair of particles is (i, j, shift): particle j is seen at r_j + shift ∘ L. In a box shorter than
-/// two particle lengths one pair meets through several images, and a particle meets its own images;
-/// `for_each_image` therefore is the rule and the nearest image only a fast path.
+/// A pair of particles is (i, j, shift): particle j is seen at r_j + shift ∘ L. In a box shorter than two particle
+/// lengths one pair meets through several images, and a particle meets its own images. `for_each_image` is therefore
+/// the general case, and the nearest image only a fast path.
 template <int Dim>
 class PeriodicBox {
  public:
@@ -22,15 +22,15 @@ class PeriodicBox {
   }
 
   const Vec<Dim>& lengths() const { return lengths_; }
-  /// Area in two dimensions.
+  /// The area in two dimensions.
   double volume() const { return prod(lengths_); }
 
   Vec<Dim> translation(const Shift<Dim>& shift) const {
     return shift.template cast<double>().cwiseProduct(lengths_);
   }
 
-  /// Brings `position` into the box and adds the whole boxes taken off to `image`, so that
-  /// position + image ∘ L (the unwrapped position) stays the same.
+  /// Brings `position` into the box and adds the number of box lengths removed to `image`, so that position + image ∘ L
+  /// (the unwrapped position) stays the same.
   void wrap(Vec<Dim>& position, Shift<Dim>& image) const {
     for (int k = 0; k < Dim; ++k) {
       const double boxes = std::floor(position[k] / lengths_[k] + 0.5);
@@ -44,7 +44,7 @@ class PeriodicBox {
     }
   }
 
-  /// The same, but a position that is inside stays bit-identical.
+  /// Wraps the position only if it is outside: a position inside the box stays bit-identical.
   void wrap_if_outside(Vec<Dim>& position, Shift<Dim>& image) const {
     const Vec<Dim> half = 0.5 * lengths_;
     const bool inside =
@@ -52,7 +52,7 @@ class PeriodicBox {
     if (!inside) wrap(position, image);
   }
 
-  /// The shift that makes |d + shift ∘ L| smallest, for any separation d.
+  /// Returns the shift that makes |d + shift ∘ L| smallest, for any separation d.
   Shift<Dim> nearest_shift(const Vec<Dim>& d) const {
     Shift<Dim> shift;
     for (int k = 0; k < Dim; ++k)
@@ -85,7 +85,7 @@ class PeriodicBox {
   Vec<Dim> lengths_;
 };
 
-/// True of exactly one of two opposite shifts, so that own images are counted once.
+/// Returns true for exactly one of two opposite shifts, so that own images are counted once.
 template <int Dim>
 bool is_positive_shift(const Shift<Dim>& shift) {
   for (int k = 0; k < Dim; ++k)

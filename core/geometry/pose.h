@@ -5,7 +5,7 @@
 #include "core/geometry/vector.h"
 
 /// @file
-/// Where a body is and how it moves; free_flight.h moves it.
+/// The position, orientation and motion of a body; free_flight.h moves it.
 ///
 /// In two dimensions the angle is θ + ω t, in radians, counter-clockwise from the x axis to the first
 /// (major) axis of the body, and unwrapped: two full turns are 4π, not 0.

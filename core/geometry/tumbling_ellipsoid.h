@@ -6,9 +6,9 @@
 
 namespace vitrel {
 
-/// An ellipsoid that rotates by Euler's equations (asymmetric_top.h); a plain `Ellipsoid` keeps its angular velocity.
-/// Spheroids and spheres are the same either way, at a higher cost here. The motion at time 0 has the angular velocity
-/// of that instant.
+/// An ellipsoid that rotates by Euler's equations (asymmetric_top.h), whereas a plain `Ellipsoid` keeps its angular
+/// velocity. Spheroids and spheres move identically as either type, but this type costs more. `motion` of a flight
+/// holds the angular velocity at time 0.
 struct TumblingEllipsoid {
   static constexpr int dimension = 3;
   Ellipsoid shape;
@@ -28,19 +28,19 @@ struct ShapeOf<TumblingEllipsoid> {
   static constexpr bool grows = false;
 };
 
-/// Its rotation is known in closed form, from any time on.
+/// The rotation is known in closed form, so a flight may start at any time of a given top.
 template <>
 struct Flight<TumblingEllipsoid> {
   TumblingEllipsoid body;
   Pose3 pose;
   Motion3 motion;
   AsymmetricTop top;
-  double top_time = 0;  ///< of the top at time 0 of the flight
+  double top_time = 0;  ///< the top's time at time 0 of the flight
 
   Flight(const TumblingEllipsoid& ellipsoid, const Pose3& start, const Motion3& velocities)
       : Flight(ellipsoid, start, velocities,
                {ellipsoid.shape, start.orientation, velocities.angular_velocity}, 0) {}
-  /// With a top whose state at `time` is that of start and velocities.
+  /// Takes a top whose state at `time` is that of `start` and `velocities`.
   Flight(const TumblingEllipsoid& ellipsoid, const Pose3& start, const Motion3& velocities,
          const AsymmetricTop& rotation, double time)
       : body(ellipsoid), pose(start), motion(velocities), top(rotation), top_time(time) {}

@@ -12,15 +12,16 @@
 /// @file
 /// Small vectors, matrices and rotations, and the arithmetic on them whose result depends on the order of its terms.
 ///
-/// Lengths are in the program's unit of length (the reference species has semi-axes a b = 1), whole box lengths are
-/// counted in `Shift`.
+/// Lengths are in the program's unit of length (the reference species has semi-axes a b = 1). `Shift` counts whole box
+/// lengths.
 ///
 /// Eigen leaves open in which order it sums: that depends on its version and on the instructions of the processor, and
-/// some of its kernels fuse products into sums. On the way to a trajectory every sum here runs from the first component
-/// to the last. Operations on single components (sums and multiples of vectors, cwiseProduct, cross, asDiagonal) have no
-/// order and are Eigen's. Within the namespace, the products of fixed-size matrices and of quaternions below are chosen
-/// before Eigen's, since they take their operands without a conversion to a base class. scripts/check_arithmetic refuses
-/// Eigen's own reductions in core, mc, edmd and the stages of the workflow.
+/// some of its kernels fuse products into sums. Here, every sum that affects a trajectory runs from the first component
+/// to the last. Operations on single components (sums and multiples of vectors, cwiseProduct, cross, asDiagonal)
+/// involve no such order, so Eigen's are used. Within the namespace, overload resolution prefers the products of
+/// fixed-size matrices and of quaternions below to Eigen's, since they take their operands without a conversion to a
+/// base class. scripts/check_arithmetic refuses Eigen's own reductions in core, mc, edmd and the stages of the
+/// workflow.
 namespace vitrel {
 
 template <int Dim>
@@ -29,14 +30,14 @@ using Vec2 = Vec<2>;
 using Vec3 = Vec<3>;
 using Mat2 = Eigen::Matrix2d;
 using Mat3 = Eigen::Matrix3d;
-/// A rotation, of norm 1 to rounding.
+/// A rotation; its norm is 1 to rounding.
 using Quaternion = Eigen::Quaterniond;
 
 /// Whole box lengths per direction: the image of a particle at r lies at r + shift ∘ L.
 template <int Dim>
 using Shift = Eigen::Matrix<std::int32_t, Dim, 1>;
 
-/// A matrix or vector whose size the compiler knows, or an expression of such.
+/// A matrix or vector whose size is known at compile time, or an expression of such matrices or vectors.
 template <class M>
 concept FixedSize = (M::SizeAtCompileTime != Eigen::Dynamic) &&
                     std::is_class_v<decltype(std::declval<M>().cwiseAbs2())>;
@@ -77,7 +78,8 @@ typename U::Scalar dot(const U& u, const V& v) {
   return sum(u.cwiseProduct(v));
 }
 
-/// In the plane a step in orientation and an angular velocity are numbers.
+/// In the plane, angular velocities and changes of orientation are numbers; these overloads serve code for both
+/// dimensions.
 inline double dot(double u, double v) {
   return u * v;
 }
@@ -96,7 +98,7 @@ typename V::Scalar norm(const V& v) {
   return sqrt(squared_norm(v));
 }
 
-/// v/|v|; the zero vector stays.
+/// Returns v/|v|, or v itself if it is the zero vector.
 template <FixedSize V>
 typename V::PlainObject normalized(const V& v) {
   const typename V::PlainObject& plain = v;
@@ -119,12 +121,12 @@ inline Vec2 direction(double angle) {
   return {cosine, sine};
 }
 
-/// u turned by +90°.
+/// Returns u turned by +90°.
 inline Vec2 perpendicular(const Vec2& u) {
   return {-u.y(), u.x()};
 }
 
-/// det(m) m⁻¹
+/// Returns det(m) m⁻¹.
 inline Mat2 adjugate(const Mat2& m) {
   Mat2 result;
   result << m(1, 1), -m(0, 1), -m(1, 0), m(0, 0);
@@ -156,7 +158,7 @@ Eigen::Quaternion<T> operator*(const Eigen::Quaternion<T>& p, const Eigen::Quate
           p.w() * q.z() + p.z() * q.w() + p.x() * q.y() - p.y() * q.x()};
 }
 
-/// v rotated by q.
+/// Returns v rotated by q.
 template <class T, FixedSize V>
 Eigen::Matrix<T, 3, 1> operator*(const Eigen::Quaternion<T>& q, const V& v) {
   const Eigen::Matrix<T, 3, 1> plain = v, twice = 2 * q.vec().cross(plain);
@@ -171,7 +173,7 @@ inline Quaternion normalized(const Quaternion& q) {
   return Quaternion(normalized(q.coeffs()));
 }
 
-/// The images of the unit vectors as columns.
+/// The matrix of the rotation q; its columns are the images of the unit vectors.
 inline Mat3 rotation_matrix(const Quaternion& q) {
   const double x2 = 2 * q.x(), y2 = 2 * q.y(), z2 = 2 * q.z();
   const double xx = q.x() * x2, yy = q.y() * y2, zz = q.z() * z2;
@@ -183,8 +185,8 @@ inline Mat3 rotation_matrix(const Quaternion& q) {
   return m;
 }
 
-/// The unit quaternion of a rotation matrix. The largest of its components comes from the diagonal, so that nothing is
-/// lost by cancellation (shepperd1978).
+/// Returns the unit quaternion of a rotation matrix. The largest of its components comes from the diagonal, so that
+/// nothing is lost by cancellation (shepperd1978).
 inline Quaternion quaternion_of(const Mat3& m) {
   const double trace = m(0, 0) + m(1, 1) + m(2, 2);
   if (trace > 0)

@@ -36,8 +36,8 @@ void move_file(const fs::path& from, const fs::path& to) {
                     " to it: " + error.message());
 }
 
-/// The names of unfinished files, for a signal handler, which must not touch anything else of theirs. More at once than
-/// there are places for, which does not happen, stay if the process ends at once.
+/// The names of unfinished files, for a signal handler, which must not access anything else. If there are more files
+/// than places, which does not happen, the surplus files stay when the process ends at once.
 std::array<std::atomic<const char*>, 8> unfinished{};
 
 void exchange_unfinished(const char* from, const char* to) {
@@ -47,7 +47,7 @@ void exchange_unfinished(const char* from, const char* to) {
   }
 }
 
-/// Calls `make` with one name after the other, until it makes a new one.
+/// Calls `make` with one name after the other, until it makes a new file or folder.
 fs::path make_partial(const fs::path& path, const char* what, const auto& make) {
   constexpr int attempts = 100;
   std::random_device random;
@@ -60,7 +60,7 @@ fs::path make_partial(const fs::path& path, const char* what, const auto& make) 
                   std::generic_category().message(errno));
 }
 
-/// The file that a link leads to, whether it exists or not.
+/// Returns the file that a link leads to, whether this file exists or not.
 fs::path target_of(const fs::path& path) {
   std::error_code error;
   const fs::path link = fs::read_symlink(path, error);

@@ -9,11 +9,11 @@
 
 namespace vitrel {
 
-/// How many boxes away from the box a position in a file may be, and how often a particle may have crossed the box:
-/// both together are whole numbers of 32 bits.
+/// A position in a file may be at most this many boxes away from the box, and a particle may have crossed the box at
+/// most this often. The sum of both numbers then fits into 32 bits.
 inline constexpr double max_box_crossings = 1e9;
 
-/// Box crossings as a file has them; none if one is no whole number, or impossible.
+/// Returns the box crossings that a file states; nothing if one is not a whole number or is impossible.
 template <int Dim>
 std::optional<Shift<Dim>> box_crossings(const Vec<Dim>& numbers) {
   Shift<Dim> crossings;

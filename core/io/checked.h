@@ -5,17 +5,18 @@
 #include <system_error>
 
 /// @file
-/// What C functions return, once it is known that they did not fail.
+/// Functions that pass on the results of C functions if they did not fail, and throw otherwise.
 namespace vitrel {
 
-/// The result of a system call that should not fail; throws std::system_error with the name of the call.
+/// Returns the result of a system call. Throws std::system_error with the name of the call if it failed.
 template <class Result>
 Result checked(Result result, const char* call) {
   if (result < 0) throw std::system_error(errno, std::generic_category(), call);
   return result;
 }
 
-/// What a library returned, which has no other reason to return nothing than that memory is short: std::bad_alloc.
+/// Returns what a library function returned. Throws std::bad_alloc if that is null, for functions that return null only
+/// if memory is short.
 template <class T>
 T* obtained(T* result) {
   return result ? result : throw std::bad_alloc();

@@ -21,15 +21,16 @@ namespace vitrel {
 namespace fs = std::filesystem;
 namespace {
 
-/// Raised whenever the layout changes; a checkpoint serves to continue a run, not to keep data.
+/// This number is raised whenever the layout changes; a checkpoint serves to continue a run, not to keep data.
 constexpr std::int32_t layout = 4;
-constexpr std::int32_t layout_without_checksum = 3;  // of 0.1.0, without a checksum of the file
+constexpr std::int32_t layout_without_checksum = 3;  // layout of version 0.1.0, without a checksum
 
-/// What follows the HDF5 file, which HDF5 ignores, before the CRC-32 of all bytes up to here.
+/// This text follows the HDF5 content of the file, which HDF5 ignores. Behind it is the CRC-32 of all bytes up to
+/// there.
 constexpr std::string_view trailer = "vitrel checkpoint CRC-32";
 using Checksum = std::array<char, sizeof(std::uint32_t)>;
 
-/// The checksum of the first `bytes` bytes.
+/// Returns the checksum of the first `bytes` bytes.
 Checksum checksum_of(const fs::path& path, std::uintmax_t bytes) {
   std::ifstream file(path, std::ios::binary);
   boost::crc_32_type crc;
@@ -86,7 +87,7 @@ std::string read_text(const h5::Group& group, const std::string& name) {
   return {stored.begin(), stored.end()};
 }
 
-/// Names as one text, each ended by a zero byte.
+/// Returns the names as one text, each ended by a zero byte.
 std::string joined(const auto& names) {
   std::string text;
   for (const std::string& name : names) text += name + '\0';
@@ -156,7 +157,7 @@ std::map<std::string, std::vector<double>> read_series(const h5::Group& root) {
   return series;
 }
 
-/// An array of small structures of numbers, as a table with one row per particle.
+/// Writes an array of small structures of numbers as a table with one row per particle.
 template <class T, class Item>
 void write_rows(h5::Group& group, const std::string& name, const std::vector<Item>& items) {
   constexpr std::size_t columns = sizeof(Item) / sizeof(T);
@@ -174,7 +175,7 @@ void read_rows(const h5::Group& group, const std::string& name, std::vector<Item
     std::memcpy(static_cast<void*>(items.data()), values.data(), items.size() * sizeof(Item));
 }
 
-/// Calls visit(type of number, name, items) for all that particles have one of each.
+/// Calls visit(type of number, name, items) for every array with one entry per particle.
 template <int Dim>
 void each_array(auto& configuration, auto visit) {
   visit(double(), "position", configuration.position);
@@ -190,7 +191,7 @@ void each_array(auto& configuration, auto visit) {
   visit(std::int32_t(), "species", configuration.species);
 }
 
-/// Contacts of soft particles, as rows of doubles, which represent all particle numbers exactly.
+/// Writes the contacts of soft particles as rows of doubles, which represent all particle numbers exactly.
 template <int Dim>
 void write_contacts(h5::Group& group, const Configuration<Dim>& configuration) {
   std::vector<std::array<double, 3 + Dim>> releases, close_pairs;
@@ -208,7 +209,8 @@ void write_contacts(h5::Group& group, const Configuration<Dim>& configuration) {
   write_rows<double>(group, "close_pairs", close_pairs);
 }
 
-/// The whole number that a real one holds. A damaged checkpoint of the layout without a checksum may hold any number.
+/// Returns the whole number that x holds, which must be below `end`. A damaged checkpoint of the layout without a
+/// checksum may hold any number.
 template <std::integral Integer>
 Integer stored_number(const fs::path& path, double x, Integer end) {
   const auto number = whole_number<Integer>(x);

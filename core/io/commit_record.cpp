@@ -35,7 +35,7 @@ CommitRecord with_checksum(CommitRecord record) {
 }
 
 CommitMark mark_behind(std::uint64_t end) {
-  constexpr std::uint64_t size = sizeof(std::uint64_t);  // aligned, so that no page ends in it
+  constexpr std::uint64_t size = sizeof(std::uint64_t);  // aligned, so that no page ends inside it
   const std::uint64_t place = (end + size - 1) / size * size;
   return {place, place + size};
 }
@@ -48,7 +48,7 @@ std::uint64_t state_of(const FoundCommits& found) {
   const auto& [record, journal, mark] = found;
   // A process that is killed while it writes the record leaves the journal.
   if (!is_whole(record)) return journal.value_or(0);
-  // The journal came before the record, and has all that its commit changes.
+  // The journal was written before the record, and it has all that its commit changes.
   if (journal == record.begun) return record.begun;
   const bool is_at_rest = record.begun == record.done;
   return is_at_rest && !is_later_than(record.done, mark) ? record.done : 0;

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::is_same_v<Id, hid_t>);
 
-/// HDF5's names of a type of number: in memory, and in the file.
+/// HDF5's identifiers of a type of number: in memory, and in the file.
 struct TypeNames {
   Id native, stored;
 };
@@ -28,8 +28,8 @@ TypeNames type_names() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return {H5T_NATIVE_UINT8, H5T_STD_U8LE};
 }
 
-/// What stands for numbers that were never written: HDF5 takes a chunk that it does not find, because its index is
-/// damaged, for one of those.
+/// Sets the value that stands for numbers that were never written. HDF5 also gives this value for a chunk that it does
+/// not find because its index is damaged.
 template <class T>
 void mark_missing(const Check& check, const Handle& properties, Id type) {
   const T missing = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN()
@@ -53,7 +53,7 @@ Handle create_space(const Check& check, const Shape& shape) {
   return Handle(check(H5Screate_simple(static_cast<int>(shape.size()), sizes(shape), nullptr)));
 }
 
-/// Texts of `width` bytes, padded with zeros.
+/// Returns the type of texts of `width` bytes, padded with zeros.
 Handle text_type(const Check& check, std::size_t width) {
   Handle type(check(H5Tcopy(H5T_C_S1)));
   check(H5Tset_size(type.id(), width));
@@ -67,7 +67,8 @@ Handle text_type(const Check& check, std::size_t width) {
 Handle::~Handle() {
   if (id_ <= 0) return;  // none, or HDF5's default
   silence_hdf5();
-  // A file that was closed has closed its objects; else it closes what stays open.
+  // A file that was closed has closed its objects, too, and their identifiers are not valid. If closing an object fails
+  // here, it is closed with its file.
   if (H5Iis_valid(id_) > 0) static_cast<void>(H5Idec_ref(id_));
 }
 
@@ -116,7 +117,7 @@ void Object::set_attribute(const std::string& name, std::span<const T> values) {
 
 namespace {
 
-/// Reads strings of either kind HDF5 has; `read` fills memory of the type it is given.
+/// Reads strings of fixed or variable length; `read` fills memory of the type it is given.
 std::vector<std::string> read_strings(const Check& check, const Handle& stored, std::size_t count,
                                       auto&& read) {
   if (check(H5Tget_class(stored.id())) != H5T_STRING) check.refuse("it is not a text");
@@ -241,7 +242,7 @@ Dataset::FrameSpaces Dataset::frame_spaces(std::uint64_t first, std::uint64_t co
   Handle space(check(H5Dget_space(handle_.id())));
   check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, sizes(start), nullptr, sizes(block),
                             nullptr));
-  // Both spaces have the same shape: between different ranks HDF5 goes element by element.
+  // Both spaces have the same shape, because HDF5 copies element by element between different ranks.
   return {std::move(space), create_space(check, block)};
 }
 
@@ -323,14 +324,14 @@ std::vector<std::string> Group::members() const {
 
 Group Group::group(const std::string& path) const {
   const Check check(*file_, "open group", path_of(path));
-  static_cast<void>(has(path));  // hard links only; HDF5 says what is missing
+  static_cast<void>(has(path));  // refuses links that are not hard; HDF5 says what is missing
   Handle opened(check(H5Gopen2(handle_.id(), path.c_str(), H5P_DEFAULT)));
   return {file_, std::move(opened), path_of(path)};
 }
 
 Dataset Group::dataset(const std::string& path) const {
   const Check check(*file_, "open dataset", path_of(path));
-  static_cast<void>(has(path));  // hard links only; HDF5 says what is missing
+  static_cast<void>(has(path));  // refuses links that are not hard; HDF5 says what is missing
   Handle opened(check(H5Dopen2(handle_.id(), path.c_str(), H5P_DEFAULT)));
   require_plain_storage(*file_, opened, path_of(path));
   return {file_, std::move(opened), path_of(path)};
@@ -352,7 +353,7 @@ Dataset Group::create(const Check& check, const std::string& name, Id type, cons
 
 namespace {
 
-/// Checksums exist for chunks only; one holds all of an array that is not huge.
+/// HDF5 has checksums for chunks only, so an array that is not huge is stored as one chunk.
 template <class T>
 Handle with_checksum(const Check& check, const Shape& shape, Id type = type_names<T>().native) {
   Handle properties(check(H5Pcreate(H5P_DATASET_CREATE)));
@@ -395,7 +396,8 @@ Dataset Group::create_enumeration(const std::string& name, std::span<const std::
     check(H5Tenum_insert(type.id(), names[value].c_str(), &value));
   const Shape shape{values.size()};
   const Handle properties = with_checksum<std::int32_t>(check, shape, type.id());
-  // A checksum of zeros is zero. Lost bytes of a compressed array are not taken for the first of the names.
+  // The checksum of zeros is zero. Compression keeps lost bytes, which are read as zeros, from being taken for the
+  // first of the names.
   if (!values.empty()) check(H5Pset_deflate(properties.id(), 1));
   Dataset dataset = create(check, name, type.id(), create_space(check, shape), properties);
   check(H5Dwrite(dataset.handle_.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));

@@ -16,12 +16,12 @@
 /// themselves. HDF5's own messages are silenced; every failure becomes one FileError that names the
 /// file, the operation and the reason the operating system gave.
 ///
-/// What is written reaches the file by `flush`, whole or not at all (see TransactionalFile): a
-/// killed process or a full disk leaves the file as it was at the last flush. After a failure
-/// nothing more is written, and later operations on that file throw again. A file may be read while another process
-/// writes it: every operation sees the content of the same commit, or throws ChangedFile.
+/// `flush` brings what was written into the file, whole or not at all (see TransactionalFile): a killed process or a
+/// full disk leaves the file as it was at the last flush. After a failure nothing more is written, and later operations
+/// on that file throw again. A file may be read while another process writes it: every operation sees the content of
+/// the same commit, or throws ChangedFile.
 ///
-/// T is one of double, float, int16_t, int32_t, int64_t, uint64_t, uint8_t; numbers are stored little-endian, and
+/// T is one of double, float, int16_t, int32_t, int64_t, uint64_t, uint8_t. Numbers are stored little-endian and
 /// converted to the type of the array.
 namespace vitrel::h5 {
 
@@ -31,7 +31,7 @@ using Shape = std::vector<std::uint64_t>;
 class OpenFile;
 class Check;
 
-/// Another process has changed the file since it was opened; File::reopen goes on to its present content.
+/// Thrown if another process has changed the file since it was opened; File::reopen continues with its present content.
 class ChangedFile : public FileError {
  public:
   using FileError::FileError;
@@ -53,12 +53,12 @@ class Handle {
 /// An HDF5 object that belongs to an open file; the file stays open as long as one of them lives.
 class Object {
  public:
-  /// Where the object is inside the file, for messages: "particles/all/box".
+  /// The path of the object inside the file, for messages: "particles/all/box".
   const std::string& name() const { return name_; }
 
   bool has_attribute(const std::string& name) const;
   void set_attribute(const std::string& name, const std::string& text);
-  /// Strings of `width` bytes each, padded with zeros.
+  /// Stores strings of `width` bytes each, padded with zeros.
   void set_attribute(const std::string& name, std::span<const std::string> texts,
                      std::size_t width);
   template <class T>
@@ -68,7 +68,7 @@ class Object {
     set_attribute(name, std::span<const T>(&value, 1));
   }
   std::string text_attribute(const std::string& name) const;
-  /// One string, or an array of several.
+  /// Reads one string, or an array of several.
   std::vector<std::string> texts_attribute(const std::string& name) const;
   template <class T>
   T number_attribute(const std::string& name) const;
@@ -76,7 +76,7 @@ class Object {
  protected:
   Object(std::shared_ptr<OpenFile> file, Handle handle, std::string name);
 
-  std::shared_ptr<OpenFile> file_;  // before handle_: the object closes first
+  std::shared_ptr<OpenFile> file_;  // before handle_, so that the object closes first
   Handle handle_;
   std::string name_;
 
@@ -85,14 +85,14 @@ class Object {
                        const void* data);
 };
 
-/// An array of numbers or strings. A series is an array that grows along its first direction, one
-/// entry ("frame") at a time.
+/// An array of numbers or strings. A series is an array that grows along its first direction, one entry ("frame") at a
+/// time.
 class Dataset : public Object {
  public:
-  /// Empty for a scalar.
+  /// The shape is empty for a scalar.
   Shape shape() const;
 
-  /// The whole array, last direction fastest; numbers are converted to T.
+  /// Reads the whole array, last direction fastest; numbers are converted to T.
   template <class T>
   std::vector<T> read() const;
   /// Replaces the whole array, whose number of elements must be that of `values`.
@@ -100,21 +100,21 @@ class Dataset : public Object {
   void write(std::span<const T> values);
   std::string read_text() const;
 
-  /// Cuts or extends a series to `frames` frames; new ones are missing until written.
+  /// Cuts or extends a series to `frames` frames; new frames count as missing until they are written.
   void resize(std::uint64_t frames);
-  /// Frames of the series from `first` on; `values` must have their size. Whole chunks at a time are fastest. Frames
-  /// that are read must have this many `numbers` each.
+  /// Writes or reads `count` frames of the series from `first` on. `values` must have their size, and frames that are
+  /// read must have `numbers` numbers each. Access to whole chunks is fastest.
   template <class T>
   void write_frames(std::uint64_t first, std::uint64_t count, std::span<const T> values);
   template <class T>
   std::vector<T> read_frames(std::uint64_t first, std::uint64_t count, std::uint64_t numbers) const;
-  /// How many frames of a series lie together; 1 of an array that is stored otherwise.
+  /// Returns the number of frames per chunk of a series; 1 for an array that is not stored in chunks.
   std::uint64_t frames_per_chunk() const;
   /// The size of a number in the file.
   std::size_t bytes_per_number() const;
 
-  /// The names of an enumerated type indexed by value 0, 1, 2 …; empty if the array holds plain
-  /// numbers. Values without a name get an empty one.
+  /// Returns the names of an enumerated type indexed by value 0, 1, 2 …; empty if the array holds plain numbers. Values
+  /// without a name get an empty one.
   std::vector<std::string> enumeration() const;
 
  private:
@@ -127,7 +127,7 @@ class Dataset : public Object {
   FrameSpaces frame_spaces(std::uint64_t first, std::uint64_t count, std::uint64_t values) const;
 };
 
-/// A chunk holds no more particles than this, so that little is read in vain where a few are followed through
+/// A chunk holds no more particles than this, so that little is read in vain when a few particles are followed through
 /// all frames.
 inline constexpr std::uint64_t rows_per_chunk = 1024;
 
@@ -137,28 +137,28 @@ class Group : public Object {
   bool has(const std::string& path) const;
   bool has_group(const std::string& path) const;
   bool has_dataset(const std::string& path) const;
-  /// Names of all members in alphabetical order.
+  /// Returns the names of all members in alphabetical order.
   std::vector<std::string> members() const;
 
   Group group(const std::string& path) const;
   Dataset dataset(const std::string& path) const;
 
   Group create_group(const std::string& name);
-  /// A fixed array, with a checksum; `shape` empty: a scalar, without.
+  /// Creates an array of fixed size with a checksum; an empty `shape` means a scalar, without a checksum.
   template <class T>
   Dataset create_array(const std::string& name, const Shape& shape, std::span<const T> values);
   Dataset create_text(const std::string& name, const std::string& text);
-  /// An array of names out of `names`, stored as the index into it.
+  /// Creates an array of names out of `names`, stored as the index into `names`.
   Dataset create_enumeration(const std::string& name, std::span<const std::string> names,
                              std::span<const std::int32_t> values);
-  /// A series with no frame yet, in chunks of so many frames and, of the first direction of a frame, of up to
-  /// rows_per_chunk entries. They have checksums, and keep their size and place, so that adding a frame never moves the
-  /// earlier ones.
+  /// Creates a series without frames. A chunk holds `frames_per_chunk` frames and, along the first direction of a
+  /// frame, up to rows_per_chunk entries. Chunks have checksums, and keep their size and place, so that adding a frame
+  /// never moves the earlier ones.
   template <class T>
   Dataset create_series(const std::string& name, const Shape& frame_shape,
                         std::uint64_t frames_per_chunk);
   void remove(const std::string& name);
-  /// A second name for a member of the file; `target` is its path from the root.
+  /// Creates a second name for a member of the file; `target` is its path from the root.
   void link(const std::string& name, const std::string& target);
 
  private:
@@ -173,32 +173,34 @@ class Group : public Object {
 
 enum class Access { read, write };
 
-/// How often reading begins again if another process changes the file meanwhile. Writers commit much less often than
-/// that takes.
+/// A reading that another process disturbs by changing the file is tried this often. The commits of a writer are much
+/// farther apart than one reading takes.
 inline constexpr int max_readings = 50;
 
 class File {
  public:
-  /// An empty file; one of the same name is replaced.
+  /// Creates an empty file, which replaces a file of the same name.
   static File create(const std::filesystem::path& path);
-  /// A file that exists. FileError if it is missing, truncated, no HDF5 file, or in use.
+  /// Opens an existing file. Throws FileError if it is missing, truncated, no HDF5 file, or in use.
   static File open(const std::filesystem::path& path, Access access);
 
-  /// As it was given, for messages.
+  /// The path as it was given, for messages.
   const std::string& path() const;
-  /// The open file was renamed.
+  /// Tells the object that the open file was renamed.
   void set_path(const std::filesystem::path& path);
   Group root() const;
-  /// Saves everything written so far, against a kill of the process but not a loss of power.
+  /// Saves everything written so far, so that it survives a kill of the process but not a loss of power.
   void flush();
   /// Flushes and waits for the disk.
   void synchronize();
-  /// The same, and closes. Without it the destructor saves and closes, but cannot report a failure.
+  /// Flushes, waits for the disk and closes the file. Without this call the destructor saves and closes, but cannot
+  /// report a failure.
   void close();
 
   /// Whether another process had the file open for writing when it was opened here.
   bool is_being_written() const;
-  /// Goes on to the present content of a file that is open for reading. Objects opened before are of no use any more.
+  /// Continues with the present content of a file that is open for reading. Objects opened before are of no use any
+  /// more.
   void reopen();
 
  private:
@@ -206,8 +208,8 @@ class File {
   std::shared_ptr<OpenFile> file_;
 };
 
-/// The result of `read`, which sees the content of one commit. If another process changes the file meanwhile, `forget`
-/// lets go of the objects that are open, and `read` begins again. Throws ChangedFile after max_readings.
+/// Returns the result of `read`, which sees the content of one commit. If another process changes the file meanwhile,
+/// `forget` must release the open objects, and `read` begins again. Throws ChangedFile after max_readings.
 template <class Read, class Forget>
 std::invoke_result_t<Read> read_consistently(File& file, Read&& read, Forget&& forget) {
   for (int reading = 1;; ++reading) try {

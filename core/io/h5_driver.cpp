@@ -10,7 +10,7 @@
 namespace vitrel::h5 {
 namespace {
 
-/// What HDF5 holds of an open file; the base must come first.
+/// What HDF5 holds for an open file; the base must come first.
 struct DriverFile {
   H5FD_t base;
   TransactionalFile* file;
@@ -24,7 +24,7 @@ const DriverFile& self(const H5FD_t* file) {
   return *reinterpret_cast<const DriverFile*>(file);
 }
 
-/// Files that an open one refers to come here, too: none of them is opened.
+/// HDF5 also calls this for files that an open file refers to; none of them is opened.
 H5FD_t* open_file(const char* name, unsigned, hid_t access, haddr_t) {
   const void* info = H5Pget_driver_info(access);
   if (!info) return nullptr;
@@ -41,13 +41,13 @@ herr_t close_file(H5FD_t* file) {
   return 0;
 }
 
-/// HDF5 recognises by it that a file is open already.
+/// HDF5 compares files to recognise that one is open already.
 int compare(const H5FD_t* x, const H5FD_t* y) {
   const std::less<const TransactionalFile*> before;
   return before(self(y).file, self(x).file) - before(self(x).file, self(y).file);
 }
 
-/// The same as HDF5's own driver for plain files, whose layout this one keeps.
+/// The features are those of HDF5's own driver for plain files, whose layout this driver keeps.
 herr_t query(const H5FD_t*, unsigned long* features) {
   *features = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
               H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
@@ -87,7 +87,7 @@ herr_t truncate(H5FD_t* file, hid_t, hbool_t) {
   return 0;
 }
 
-/// TransactionalFile has its own lock.
+/// These do nothing, because TransactionalFile has its own lock.
 herr_t lock(H5FD_t*, hbool_t) {
   return 0;
 }
@@ -97,7 +97,7 @@ herr_t unlock(H5FD_t*) {
 
 H5FD_class_t describe_driver() {
   H5FD_class_t driver{};
-#ifdef H5FD_CLASS_VERSION  // since HDF5 1.14, which demands a number, too; these are free for drivers nobody shares
+#ifdef H5FD_CLASS_VERSION  // HDF5 1.14 and later demand a number, too; these are free for drivers nobody shares
   driver.version = H5FD_CLASS_VERSION;
   driver.value = static_cast<H5FD_class_value_t>(H5_VFD_RESERVED + 118);
 #endif

@@ -9,8 +9,8 @@
 namespace vitrel::h5 {
 namespace {
 
-/// Why HDF5 failed, for a person: known causes, which it numbers, with what to do about them, or else what it noted
-/// where the error arose.
+/// Returns why HDF5 failed, for a person: for known causes, which HDF5 numbers, it also says what to do about them;
+/// otherwise it is the note of HDF5 from where the error arose.
 std::string explained_failure() {
   std::string reason;
   const auto explain = [](unsigned depth, const H5E_error2_t* error, void* out) -> herr_t {
@@ -22,7 +22,7 @@ std::string explained_failure() {
     return 0;
   };
   const bool is_known = H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, explain, &reason) >= 0;
-  // With the note of an error in any thread, HDF5 cannot close at the end of the process.
+  // HDF5 cannot close at the end of the process while any thread holds the note of an error.
   static_cast<void>(H5Eclear2(H5E_DEFAULT));
   return is_known && !reason.empty() ? reason : "unknown reason";
 }
@@ -75,7 +75,7 @@ void OpenFile::create() {
   id_ = check(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation.id(), access().id()));
 }
 
-/// Another process may change the file before HDF5 has read what it needs.
+/// Another process may change the file before HDF5 has read what it needs; the file is then opened again.
 void OpenFile::open() {
   const unsigned flags = content_->writable() ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
   for (int reading = 1;; ++reading) {
@@ -88,7 +88,7 @@ void OpenFile::open() {
 }
 
 void OpenFile::reopen() {
-  if (id_ >= 0) static_cast<void>(H5Fclose(std::exchange(id_, -1)));  // it was only read
+  if (id_ >= 0) static_cast<void>(H5Fclose(std::exchange(id_, -1)));  // a failure loses nothing
   content_->refresh();
   open();
 }
@@ -99,7 +99,7 @@ OpenFile::~OpenFile() {
     if (id_ >= 0 && content_->writable()) flush();
   } catch (const FileError&) {  // what was flushed before is safe
   }
-  if (id_ >= 0) static_cast<void>(H5Fclose(id_));  // nobody is left to be told
+  if (id_ >= 0) static_cast<void>(H5Fclose(id_));  // nobody is left to report a failure to
 }
 
 void OpenFile::prepare(std::string_view action, std::string_view object) const {
@@ -118,7 +118,7 @@ void OpenFile::fail(std::string_view action, std::string_view object) {
 
 void OpenFile::fail(std::string_view action, std::string_view object, const std::string& reason) {
   if (content_ && content_->writable()) content_->give_up(reason);
-  prepare(action, object);  // what failed first
+  prepare(action, object);  // throws what failed first, if something did
   throw_file_error(path_, action, object, reason);
 }
 

@@ -28,8 +28,8 @@ bool is_own_filter(H5Z_filter_t filter) {
   return std::ranges::find(own, filter) != own.end();
 }
 
-/// Whether the chunk at this place is stored. HDF5 1.10 searches the whole index to answer this, so it is asked only
-/// about chunks that seem to be empty.
+/// Returns whether the chunk at this place is stored. HDF5 1.10 searches the whole index to answer this, so only chunks
+/// that seem to be empty are looked up.
 bool has_chunk(const Check& check, const Handle& dataset, const Shape& at) {
   unsigned skipped = 0;
   haddr_t address = HADDR_UNDEF;
@@ -68,8 +68,9 @@ bool has_link(OpenFile& file, const Handle& group, const std::string& name,
 
 namespace {
 
-/// A damaged file may state any size, for which there would be no memory. The stored bytes of an array limit it by
-/// the largest factor of compression; only small arrays may have more numbers that were never written.
+/// Throws FileError if an array states more numbers than it can have: a damaged file may state any size, for which
+/// there would be no memory. The stored bytes of an array limit its size by the largest factor of compression; only
+/// small arrays may have more numbers, which were never written.
 void require_stored_numbers(OpenFile& file, const Handle& dataset, const std::string& name) {
   constexpr double best_compression = 1032, never_written = 1 << 23;
   const Check check(file, "inspect", name);

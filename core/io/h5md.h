@@ -18,30 +18,30 @@
 #include "core/state/observer.h"
 
 /// @file
-/// Trajectories in H5MD 1.1 (de Buyl, Colberg & Höfling, Comput. Phys. Commun. 185, 1546, 2014).
-/// The file is always three-dimensional, because readers of two-dimensional files are rare:
-/// ellipses lie in the plane z = 0, their third semi-axis is stored as 0, and the box is 1 high and
-/// not periodic in z. Ellipsoids, in three dimensions, fill all of it. `parameters` tells which.
+/// Trajectories in H5MD 1.1 (de Buyl, Colberg & Höfling, Comput. Phys. Commun. 185, 1546, 2014). The file is always
+/// three-dimensional, because readers of two-dimensional files are rare. In two dimensions, ellipses lie in the plane
+/// z = 0, their third semi-axis is stored as 0, and the box is 1 high and not periodic in z. The attribute `dimension`
+/// of `parameters` tells which dimension the system has.
 ///
 ///     particles/all/
 ///       position, image             wrapped, box centred at the origin;
 ///                                   unwrapped = position + image · edges
 ///       angle                       in 2-D: θ, unwrapped, radians
-///       orientation                 in 3-D: quaternion w, x, y, z; in 2-D, as (cos θ/2, 0, 0, sin θ/2), where
-///                                   turns are not counted, and in files up to version 0.2
-///       velocity, angular_velocity  if asked for, both in the axes of space; in 2-D ω is one number (up to
-///                                   version 0.2 three)
+///       orientation                 in 3-D: quaternion w, x, y, z; in 2-D (cos θ/2, 0, 0, sin θ/2), if turns are not
+///                                   counted, and in files up to version 0.2
+///       velocity, angular_velocity  optional, both in the axes of space; in 2-D ω is one number (up to version 0.2
+///                                   three)
 ///       box/edges                   rows are the cell vectors
 ///       species, id, mass, semiaxes the same in all frames
 ///     observables/<name>            one number per frame
-///     particles/all/close_pairs/    of soft particles, if asked for; those of frame k are the rows from
-///                                   end[k − 1], or 0, to end[k]:
+///     particles/all/close_pairs/    optional, for soft particles; those of frame k are the rows from end[k − 1], or 0,
+///                                   to end[k]:
 ///       pair, lag, distance         (i, j); the shift of j's image, between unwrapped positions; how
-///                                   close they may be
+///                                   close the centres may be
 ///     parameters                    provenance
 ///
-/// Velocities of soft particles in contact are those of after it: a run that starts from a frame finds
-/// no contacts under way, but the pairs that are still close.
+/// The stored velocities of soft particles in contact are those after the contact: a run that starts from a frame finds
+/// no contacts under way, but it finds the pairs that are still close.
 ///
 /// Every {step, time} is one dataset under many names. Numbers are stored as they are in memory, so a wrapped
 /// configuration read back is bit-identical; in single precision they have 24 bits, of which an unwrapped angle also
@@ -52,16 +52,16 @@ namespace vitrel {
 using Observables = std::map<std::string, double>;
 
 struct TrajectoryOptions {
-  bool velocities = false;                    ///< store velocity and angular velocity
-  bool close_pairs = false;                   ///< of soft particles
-  bool images = true, angles = true;          ///< false where a file of another program has none
-  bool single_precision = false;              ///< of all numbers of particles: half the size
-  std::uint64_t expected_frames = 0;          ///< chunks hold no more; 0: unknown
-  std::vector<std::string> observables = {};  ///< names of the numbers that come with every frame
+  bool velocities = false;            ///< store velocity and angular velocity
+  bool close_pairs = false;           ///< store the close pairs of soft particles
+  bool images = true, angles = true;  ///< false if a file of another program has none
+  bool single_precision = false;  ///< single precision for particle data of frames: half the size
+  std::uint64_t expected_frames = 0;          ///< chunks hold no more frames; 0: unknown
+  std::vector<std::string> observables = {};  ///< names of the observables of every frame
   bool overwrite = false;                     ///< replace an existing file instead of refusing
 };
 
-/// One frame with velocities, complete under its name or not there at all.
+/// Writes one frame with velocities. The file appears under its name only when it is complete.
 template <int Dim>
 void write_state(const std::filesystem::path& path, const Configuration<Dim>& configuration,
                  const Provenance& provenance, bool overwrite = false);
@@ -71,12 +71,12 @@ void write_state(const std::filesystem::path& path, const Configuration<Dim>& co
 /// at all. A process killed at any moment, or a full disk, leaves the frames that were saved. Other processes may read
 /// the file meanwhile. Throws FileError if the file cannot be written.
 ///
-/// Memory for up to 16 frames, fewer above 32 768 particles.
+/// It needs memory for up to 16 frames, fewer above 32 768 particles, and for up to 128 frames below 1024 particles.
 class TrajectoryWriter {
  public:
-  /// A new file without frames; it appears under its name only when it is readable. `configuration`
-  /// gives what all frames share: number, shapes, masses and species of the particles.
-  /// UserError if the file exists and may not be overwritten.
+  /// Creates a file without frames, which appears under its name only when it is readable. `configuration` gives what
+  /// all frames share: number, shapes, masses and species of the particles. Throws UserError if the file exists and may
+  /// not be overwritten.
   template <int Dim>
   static TrajectoryWriter create(const std::filesystem::path& path,
                                  const Configuration<Dim>& configuration,
@@ -84,10 +84,10 @@ class TrajectoryWriter {
                                  const TrajectoryOptions& options = {});
   TrajectoryWriter(TrajectoryWriter&&) = default;
   TrajectoryWriter& operator=(TrajectoryWriter&&) = delete;  // it would lose frames
-  /// Closes too, but cannot report a failure.
+  /// Saves all frames, too, but cannot report a failure.
   ~TrajectoryWriter();
-  /// Continues a file after its first `frames_to_keep` frames; later ones are dropped. FileError if
-  /// it has fewer.
+  /// Continues a file after its first `frames_to_keep` frames; later ones are dropped. Throws FileError if it has
+  /// fewer.
   static TrajectoryWriter append_to(const std::filesystem::path& path,
                                     std::uint64_t frames_to_keep);
 
@@ -96,15 +96,15 @@ class TrajectoryWriter {
   template <int Dim>
   void write(const Configuration<Dim>& configuration, std::int64_t step,
              const Observables& observables = {});
-  /// The time spent on this file by all processes so far, for its provenance.
+  /// Records the time spent on this file by all processes so far, for its provenance.
   void record_wall_seconds(double seconds);
-  /// The parameters of a run that goes on with others.
+  /// Records the parameters of a run that continues with others.
   void record_parameters(const std::string& toml);
-  /// Saves all frames against a kill of the process.
+  /// Saves all frames, so that they survive a kill of the process.
   void commit();
-  /// Waits until the disk has all frames: a checkpoint that counts them may then be saved.
+  /// Saves all frames and waits until the disk has them; a checkpoint that counts them may then be saved.
   void synchronize();
-  /// The same, and closes.
+  /// Saves all frames, waits for the disk and closes the file.
   void close();
 
   std::uint64_t frames() const { return frames_; }
@@ -117,17 +117,17 @@ class TrajectoryWriter {
                           const Configuration<Dim>& configuration, const Provenance& provenance,
                           bool overwrite);
 
-  /// A series and what is to be added to it.
+  /// A series and the values to be added to it.
   template <class T>
   struct Series {
     h5::Dataset dataset;
     std::vector<T> added = {};
-    std::uint64_t frames = 0;  ///< of those
+    std::uint64_t frames = 0;  ///< number of frames in `added`
 
-    /// Room for the numbers of one more frame.
+    /// Adds room for the numbers of one more frame.
     std::span<T> add_frame(std::size_t numbers);
     void add(std::span<const T> frame);
-    /// Puts what was added behind what the file has.
+    /// Appends what was added to the dataset.
     void write();
   };
   using Numbers = Series<double>;
@@ -139,7 +139,7 @@ class TrajectoryWriter {
     Numbers distance;
     std::int64_t rows = 0;
 
-    /// Those of the first frames. Throws FileError with the path if there are fewer than `end` says.
+    /// Keeps the rows of the first `frames` frames. Throws FileError with the path if there are fewer than `end` says.
     void keep(std::uint64_t frames, const std::string& path);
     template <int Dim>
     void add(const Configuration<Dim>& configuration);
@@ -160,7 +160,7 @@ class TrajectoryWriter {
   void add_velocities(const Configuration<Dim>& configuration);
   void widen_images();
   void write_added();
-  /// Calls visit(series) for all that have one entry per frame.
+  /// Calls visit(series) for all series that have one entry per frame.
   template <class Visit>
   void for_each_series(Visit&& visit);
 
@@ -172,13 +172,13 @@ class TrajectoryWriter {
   Series<std::int64_t> step_;
   Numbers time_, edges_, position_;
   std::optional<Series<std::int32_t>> image_;
-  std::int32_t largest_image_ = 0;  ///< that the file can hold
+  std::int32_t largest_image_ = 0;  ///< largest image number that the file can hold
   std::optional<Numbers> orientation_, angle_, velocity_, angular_velocity_;
   std::optional<ClosePairs> close_pairs_;
   std::map<std::string, Numbers> observables_;
 };
 
-/// Writes every frame it is shown, with the observables that `measure` gives for it.
+/// Writes every frame that it observes, with the observables that `measure` gives for it.
 template <int Dim>
 class TrajectoryObserver : public Observer<Dim> {
  public:
@@ -195,27 +195,27 @@ class TrajectoryObserver : public Observer<Dim> {
 };
 
 /// Reads trajectories one frame at a time: vitrel's own, and those of other programs, which are first brought into the
-/// same form (core/io/foreign/foreign_file.h). What a file may lack, and what then is read: image: 0; velocity,
-/// angular_velocity: 0; angle: taken from the orientation, then not unwrapped; orientation: that of the axes, if all
-/// particles are round.
+/// same form (core/io/foreign/foreign_file.h). If a file lacks elements, image, velocity and angular_velocity are read
+/// as 0, and angle is taken from the orientation and is then not unwrapped. If it lacks orientation and all particles
+/// are round, their orientation is that of the axes.
 ///
-/// A frame is read into a configuration of the dimension of the file; `require_dimension` says so before any frame is
-/// asked for. Orientations in three dimensions must have the norm 1.
+/// A frame is read into a configuration of the dimension of the file; `require_dimension` checks the dimension before
+/// any frame is read. Orientations in three dimensions must have the norm 1.
 ///
 /// A file may be read while another process adds frames to it. The reader then has the frames that were in the file
 /// when it was opened.
 ///
-/// Times must be finite, and the particles must fit into the box, soft ones with some overlap. FileError names the
+/// Times must be finite, and the particles must fit into the box, soft ones with some overlap. A FileError names the
 /// file, the dataset, and what would be right.
 class TrajectoryReader {
  public:
-  /// `known`: what a file of another program may lack, and how to read it.
+  /// `known` says what a file of another program may lack, and how to read it.
   explicit TrajectoryReader(const std::filesystem::path& path, const KnownSystem& known = {});
 
   std::uint64_t frames() const { return times_.size(); }
   std::size_t particles() const;
   int dimension() const { return fixed_.index() == 0 ? 2 : 3; }
-  /// Throws FileError if the file has the other one.
+  /// Throws FileError if the file has the other dimension.
   void require_dimension(int wanted) const;
   /// One entry per frame.
   const std::vector<double>& times() const { return times_; }
@@ -224,16 +224,16 @@ class TrajectoryReader {
 
   template <int Dim = 2>
   Configuration<Dim> read(std::uint64_t frame) const;
-  /// The same into a configuration that is empty, or that another frame of this file was read into.
+  /// Reads a frame into a configuration that is empty, or that another frame of this file was read into.
   template <int Dim>
   void read(std::uint64_t frame, Configuration<Dim>& configuration) const;
-  /// The same without velocities and close pairs.
+  /// Reads a frame without velocities and close pairs.
   template <int Dim>
   void read_places(std::uint64_t frame, Configuration<Dim>& configuration) const;
 
-  /// Whether positions are rounded to single precision.
+  /// Returns whether positions are rounded to single precision.
   bool has_single_precision() const;
-  /// Whether the file has the element "velocity", "image", … of the particles.
+  /// Returns whether the file has the element "velocity", "image", … of the particles.
   bool has(const std::string& name) const;
 
   std::vector<std::string> observable_names() const;
@@ -241,19 +241,20 @@ class TrajectoryReader {
   /// One value per frame.
   std::vector<double> observable(const std::string& name) const;
 
-  /// What became of a file of another program, or up to which time a file that is being written was read; else empty.
+  /// What an import did with a file of another program, or up to which time a file that is being written was read;
+  /// otherwise empty.
   const ImportReport& import_report() const { return import_.report; }
   /// The units of a file of another program. Vitrel's own files are in reduced units and have none.
   const std::optional<FileUnits>& units() const { return import_.units; }
-  /// Whether angles are known up to half turns only.
+  /// Returns whether angles are known up to half turns only.
   bool angles_are_directors() const { return import_.angles_are_directors; }
   /// The frames, in ascending order, to which some particle may have gone another way than its box crossings say. Only
-  /// nearest images leave such doubts.
+  /// box crossings of nearest images leave such doubts.
   const std::vector<std::size_t>& doubtful_frames() const { return import_.doubtful_frames; }
-  /// Why nothing can be said about motion; empty if it can.
+  /// Returns why nothing can be said about motion; empty if it can.
   std::string obstacle_to_motion() const;
 
-  /// Empty fields where the file has none.
+  /// Returns the provenance, with empty fields where the file has none.
   Provenance provenance() const;
   const std::filesystem::path& path() const { return path_; }
 
@@ -280,7 +281,7 @@ class TrajectoryReader {
   /// Consecutive frames of a dataset, so that every chunk of the file is read once.
   struct Block {
     std::uint64_t first = 0, frames = 0;
-    std::size_t numbers = 0;  ///< of a frame
+    std::size_t numbers = 0;  ///< numbers per frame
     std::vector<double> values = {};
     const double* at(std::uint64_t frame) const { return &values[(frame - first) * numbers]; }
   };
@@ -290,7 +291,7 @@ class TrajectoryReader {
   /// One row for every particle.
   struct Rows {
     const double* values = nullptr;
-    std::size_t numbers = 0;  ///< of a row
+    std::size_t numbers = 0;  ///< numbers per row
     const double* operator[](std::size_t i) const { return values + i * numbers; }
   };
   Rows rows(const std::string& name, const std::string& meaning, std::uint64_t frame,
@@ -321,12 +322,12 @@ class TrajectoryReader {
   std::vector<double> times_;
   std::vector<std::int64_t> steps_;
   std::variant<Configuration2, Configuration3> fixed_;   ///< what all frames share
-  mutable std::map<std::string, h5::Dataset> datasets_;  ///< those in use stay open
-  mutable std::map<std::string, bool> present_;          ///< these datasets, or not; slow to ask
-  mutable std::map<std::string, Block> blocks_;          ///< by element, around the frame read last
+  mutable std::map<std::string, h5::Dataset> datasets_;  ///< datasets in use stay open
+  mutable std::map<std::string, bool> present_;          ///< whether a dataset exists; slow to ask
+  mutable std::map<std::string, Block> blocks_;  ///< blocks by element, around the frame read last
 };
 
-/// The last frame of a trajectory. FileError if there is none.
+/// Returns the last frame of a trajectory. Throws FileError if there is none.
 template <int Dim = 2>
 Configuration<Dim> read_state(const std::filesystem::path& path);
 template <int Dim>

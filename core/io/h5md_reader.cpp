@@ -23,8 +23,8 @@ TrajectoryReader::TrajectoryReader(const fs::path& path, const KnownSystem& know
   if (import_.file.is_being_written()) report_progress();
 }
 
-/// The result of `read`, which sees the content of one commit (h5::read_consistently). Within another such reading it
-/// is a part of that one, which begins again as a whole.
+/// Returns the result of `read`, which sees the content of one commit (h5::read_consistently). A call within another
+/// such reading is a part of that reading, which begins again as a whole.
 template <class Read>
 std::invoke_result_t<Read> TrajectoryReader::consistently(Read&& read) const {
   if (is_reading_) return read();
@@ -129,10 +129,10 @@ const h5::Dataset& TrajectoryReader::element(const std::string& name,
   return values;
 }
 
-/// Reads the frames of the chunk with this one. They are finite.
+/// Reads the frames of the chunk that holds `frame`, and requires their numbers to be finite.
 void TrajectoryReader::load(Block& block, const h5::Dataset& values, std::uint64_t frame) const {
   constexpr std::uint64_t most_numbers = std::uint64_t{1}
-                                         << 22;  // in memory, of chunks that others made
+                                         << 22;  // limit in memory for chunks of other programs
   const h5::Shape shape = values.shape();
   if (shape.at(0) < frames()) fail("the dataset " + values.name() + " has fewer frames than step");
   block.frames = 0;
@@ -142,7 +142,7 @@ void TrajectoryReader::load(Block& block, const h5::Dataset& values, std::uint64
   const std::uint64_t together = std::min(values.frames_per_chunk(), most);
   block.first = frame / together * together;
   const std::uint64_t count = std::min(together, frames() - block.first);
-  block.values = {};  // first, so that there are never two
+  block.values = {};  // freed first, so that there are never two
   block.values = values.read_frames<double>(block.first, count, block.numbers);
   const auto strange =
       std::ranges::find_if_not(block.values, [](double x) { return std::isfinite(x); });
@@ -153,7 +153,8 @@ void TrajectoryReader::load(Block& block, const h5::Dataset& values, std::uint64
   block.frames = count;
 }
 
-/// The dataset, which `open` checks and returns, is asked for only where the frame is not in memory.
+/// Returns the block that holds the frame. `open` checks and returns the dataset; it is called only if the frame is not
+/// in memory.
 template <class Open>
 const TrajectoryReader::Block& TrajectoryReader::block_with(const std::string& name,
                                                             std::uint64_t frame,
@@ -163,7 +164,7 @@ const TrajectoryReader::Block& TrajectoryReader::block_with(const std::string& n
   return block;
 }
 
-/// The rows of an element, which must have at least so many numbers per particle.
+/// Returns the rows of an element, which must have at least `numbers` numbers per particle.
 TrajectoryReader::Rows TrajectoryReader::rows(const std::string& name, const std::string& meaning,
                                               std::uint64_t frame, std::size_t numbers) const {
   const Block& block = block_with(name, frame, [&]() -> const h5::Dataset& {
@@ -196,11 +197,11 @@ void TrajectoryReader::read_box(std::uint64_t frame, Configuration<Dim>& configu
   require_room(frame, configuration);
 }
 
-/// Otherwise whoever looks for pairs would not come to an end.
+/// Throws FileError for boxes and semi-axes with which a search for pairs would not come to an end.
 template <int Dim>
 void TrajectoryReader::require_room(std::uint64_t frame,
                                     const Configuration<Dim>& configuration) const {
-  constexpr double max_proportion = 1e6;  // of the sides
+  constexpr double max_proportion = 1e6;  // largest ratio of the sides
   const Vec<Dim>& lengths = configuration.box.lengths();
   if (!(lengths.maxCoeff() <= max_proportion * lengths.minCoeff()))
     fail(
@@ -255,7 +256,7 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
   }
 }
 
-/// Round particles need no orientations.
+/// Returns whether the file has no orientations and needs none, because all particles are round.
 template <int Dim>
 bool TrajectoryReader::has_no_orientations(const Configuration<Dim>& configuration) const {
   return !has("angle") && !has("orientation") && rotor_count(configuration) == 0;
@@ -363,7 +364,7 @@ bool TrajectoryReader::has(const std::string& name) const {
   return consistently([&] { return has_dataset(group_ + '/' + name + "/value"); });
 }
 
-/// The first frame whose box is not that of frame 0, or the number of frames.
+/// Returns the first frame whose box is not that of frame 0, or the number of frames.
 std::uint64_t TrajectoryReader::first_other_box() const {
   const h5::Dataset& edges = dataset(group_ + "/box/edges/value", "the box lengths");
   const h5::Shape shape = edges.shape();

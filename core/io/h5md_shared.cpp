@@ -1,4 +1,4 @@
-// What all frames of a trajectory share: their times, and the particles.
+// This file reads what all frames of a trajectory share: their times, and the particles.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,7 +20,7 @@ void TrajectoryReader::read_what_frames_share() {
   read_axes();
 }
 
-/// Frames are counted by `step`, the last thing written of a frame.
+/// Frames are counted by `step`, which is the last dataset written for a frame.
 void TrajectoryReader::read_axes() {
   const h5::Shape shape = element("position", "the positions, one frame after another").shape();
   steps_ = dataset(group_ + "/position/step", "the step of every frame").read<std::int64_t>();

@@ -19,10 +19,11 @@ const std::string all = "particles/all";
 /// The z edge of the box of a two-dimensional system, which means nothing but must not be 0.
 constexpr double height = 1;
 
-/// In a chunk of a series that has one number per frame, or a few.
+/// The number of entries in a chunk of a series that has one number per frame, or a few.
 constexpr std::uint64_t entries_per_chunk = 128;
 
-/// Chunks have some hundred kilobytes, and the frames of a row of them take no more than some ten megabytes of memory.
+/// Returns the number of frames per chunk: chunks have some hundred kilobytes, and the frames of a row of chunks take
+/// no more than some ten megabytes of memory.
 std::uint64_t frames_per_chunk(std::uint64_t particles) {
   constexpr std::uint64_t most_at_once = std::uint64_t{1} << 19, in_chunk = std::uint64_t{1} << 14;
   if (particles >= h5::rows_per_chunk)
@@ -34,7 +35,7 @@ std::string series_path(const std::string& element) {
   return all + '/' + element + "/value";
 }
 
-/// A series `element`/{step, time, value} that shares the position's step and time.
+/// Creates a series `element`/{step, time, value} that shares the position's step and time.
 template <class T>
 void create_element(h5::Group& parent, const std::string& element, const h5::Shape& frame_shape,
                     std::uint64_t frames) {
@@ -53,7 +54,7 @@ void create_box(h5::Group& particles, int dimension) {
   create_element<double>(box, "edges", {3, 3}, entries_per_chunk);
 }
 
-/// What every frame says of the particles, in real numbers of type T.
+/// Creates the series of the particles, which hold real numbers of type T.
 template <class T>
 void create_elements(h5::Group& particles, std::uint64_t n, int dimension,
                      const TrajectoryOptions& options) {
@@ -76,7 +77,7 @@ void create_elements(h5::Group& particles, std::uint64_t n, int dimension,
                     frames);
 }
 
-/// The components of a vector, as three: in two dimensions the last is 0.
+/// Writes a vector as three components; in two dimensions the last is 0.
 template <class T, int Dim>
 void put(T* row, const Eigen::Matrix<T, Dim, 1>& vector) {
   for (int k = 0; k < 3; ++k) row[k] = k < Dim ? vector[k < Dim ? k : 0] : T{0};
@@ -113,7 +114,7 @@ void create_h5md_group(h5::Group& root, const Provenance& provenance) {
   creator.set_attribute("version", provenance.version);
 }
 
-/// Everything but the frames.
+/// Creates everything but the frames.
 template <int Dim>
 h5::File create_layout(const fs::path& path, const Configuration<Dim>& configuration,
                        Provenance provenance, const TrajectoryOptions& options) {
@@ -152,7 +153,8 @@ TrajectoryWriter TrajectoryWriter::create(const fs::path& path,
   refuse_existing(path, options.overwrite);
   AtomicFile pending(path);
   create_layout(pending.partial(), configuration, provenance, options).close();
-  // Open before others see it: a file that nobody writes is one of a run that has ended.
+  // The file is opened before others see it, because a file that nobody writes is taken for that of a run that has
+  // ended.
   TrajectoryWriter writer = append_to(pending.partial(), 0);
   pending.commit();
   writer.file_.set_path(path);
@@ -288,7 +290,7 @@ void TrajectoryWriter::for_each_series(Visit&& visit) {
 }
 
 void TrajectoryWriter::keep(std::uint64_t frames) {
-  // To make one longer would give zeros in the place of what is lost.
+  // Extending a series that is too short would give fill values in the place of what is lost.
   for_each_series([&](const auto& series) {
     if (series.dataset.shape().at(0) < frames)
       throw FileError(fmt::format("{}: the dataset {} has fewer frames than step", file_.path(),
@@ -330,7 +332,7 @@ void TrajectoryWriter::write(const Configuration<Dim>& configuration, std::int64
     write_added();
 }
 
-/// Frames are counted by `step`, which comes last.
+/// Frames are counted by `step`, which is therefore written last.
 void TrajectoryWriter::write_added() {
   if (close_pairs_) {
     close_pairs_->pair.write();
@@ -390,7 +392,7 @@ void TrajectoryWriter::add_places(const Configuration<Dim>& configuration) {
   if (largest > largest_image_) widen_images();
 }
 
-/// Copies all images into numbers of 32 bits.
+/// Copies all images into a dataset of 32-bit numbers.
 void TrajectoryWriter::widen_images() {
   if (!image_) return;
   h5::Group group = file_.root().group(all + "/image");

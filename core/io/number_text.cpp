@@ -37,7 +37,7 @@ std::string with_error(double value, double error) {
   if (!std::isfinite(error)) return fmt::format("{:.4g}", value);
   if (is_rounding(error, value)) return fmt::format("{:.6g}", value);
   const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
-  // Rounding 0.0996 to two digits gives 0.10: one decimal less.
+  // Rounding 0.0996 to two digits gives 0.10, which has one decimal less.
   const bool carries = std::round(error * std::pow(10, decimals)) >= 100;
   const int shown = std::max(0, decimals - (carries ? 1 : 0));
   return fmt::format("{:.{}f} ± {:.{}f}", value, shown, error, shown);

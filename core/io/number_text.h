@@ -4,23 +4,23 @@
 #include <string>
 
 /// @file
-/// Numbers as people read them.
+/// Numbers as text for people.
 namespace vitrel {
 
-/// 1234567 with thin spaces between groups of three digits.
+/// Returns a number like 1234567 with thin spaces between groups of three digits.
 std::string grouped(std::uint64_t number);
 
-/// Half a unit of the last digit of the shortest text that reads back as this number, of which three digits count at
-/// least: 5e-7 of 0.898242, 5e-4 of 0.5.
+/// Returns half a unit of the last digit of the shortest text that reads back as this number, with at least three
+/// digits: 5e-7 for 0.898242, 5e-4 for 0.5.
 double half_last_digit(double number);
 
-/// Whether the error of an average says no more than that numbers that should be equal are so up to rounding:
-/// at most 1e-12 of the value.
+/// Returns whether the error of an average is only the rounding of numbers that should be equal: at most 1e-12 of the
+/// value.
 bool is_rounding(double error, double value);
 
-/// "1.234 ± 0.012": the error with two significant digits, the value with as many decimals. Without
-/// a finite error the value has four significant digits, with one that is rounding six; "–" if it is not
-/// finite either.
+/// Returns a text like "1.234 ± 0.012": the error has two significant digits, and the value as many decimals. Without a
+/// finite error the text is the value with four significant digits, and with an error that is rounding, with six. It is
+/// "–" if the value is not finite.
 std::string with_error(double value, double error);
 
 }  // namespace vitrel

@@ -20,7 +20,7 @@ struct PythonClass {
   std::string name, meaning;
   bool is_section = false;
   std::string discriminator,
-      choice;  ///< of a table with several forms: the key and the word that tell this one
+      choice;  ///< of a table with several forms: the key and the word that select this one
   std::vector<PythonField> fields;
 
   bool has_form_of(const PythonClass& other) const {
@@ -29,7 +29,7 @@ struct PythonClass {
   }
 };
 
-/// "power_law" as PowerLaw.
+/// Returns the name of a class for a key: PowerLaw for "power_law".
 std::string class_name(const std::string& key) {
   std::string name;
   bool begins = true;
@@ -40,8 +40,8 @@ std::string class_name(const std::string& key) {
   return name;
 }
 
-/// What "Method. insert: random positions; lattice: regular positions." says of one word, or all of it if that is
-/// nothing.
+/// Returns what a sentence like "Method. insert: random positions; lattice: regular positions." says of one word, or
+/// the whole sentence if it says nothing.
 std::string about(const std::string& word, const std::string& sentence) {
   const std::size_t begin = sentence.find(word + ": ");
   if (begin == std::string::npos) return sentence;
@@ -51,12 +51,12 @@ std::string about(const std::string& word, const std::string& sentence) {
   return text;
 }
 
-/// The classes of all tables. Equal tables, as those of all distributions, share a class.
+/// The classes of all tables. Equal tables, such as those of all distributions, share a class.
 class PythonClasses {
  public:
   explicit PythonClasses(std::vector<std::string> reserved) : reserved_(std::move(reserved)) {}
 
-  /// The name of the class in the end: `longer_name`, if its own is that of another.
+  /// Adds a class and returns the name that it gets, which is `longer_name` if another class has its own name.
   std::string add(PythonClass added, const std::string& longer_name) {
     const auto same = std::ranges::find(classes_, added.name, &PythonClass::name);
     const bool is_reserved = std::ranges::find(reserved_, added.name) != reserved_.end();
@@ -73,7 +73,7 @@ class PythonClasses {
   const std::vector<PythonClass>& all() const { return classes_; }
 
  private:
-  /// A default that depends on the place is none of the class.
+  /// A default that differs between two places of the class becomes None.
   static void merge(const std::vector<PythonField>& from, std::vector<PythonField>& fields) {
     for (std::size_t k = 0; k < fields.size(); ++k) {
       if (fields[k].value == from[k].value || fields[k].value == "None") continue;
@@ -89,7 +89,7 @@ class PythonClasses {
 /// The fields of one table; the tables in it become classes.
 class PythonTable final : public FieldVisitor {
  public:
-  /// `form`: the choice by the discriminator, of a table that has several forms.
+  /// `form` is the choice by the discriminator, for a table that has several forms.
   PythonTable(PythonClasses& classes, std::string path, std::string discriminator = "",
               std::size_t form = 0)
       : classes_(classes),
@@ -192,7 +192,7 @@ class PythonTable final : public FieldVisitor {
     classes_.add({name, field.sentence, true, "", "", table.fields_}, name + "Section");
   }
 
-  /// The class of a table, or "One | Another | …" of one that has several forms.
+  /// Returns the class of a table, or "One | Another | …" for a table that has several forms.
   std::string classes_of(const Field& field, const Inside& inside) {
     const std::string name = class_name(field.key);
     PythonTable all(classes_, field.key);
@@ -219,7 +219,7 @@ class PythonTable final : public FieldVisitor {
   std::size_t form_;
   std::map<std::string, Choice> choices_;
   std::string found_;  ///< the first choice that other fields of the table depend on
-  int depth_ = 0;      ///< of conditions
+  int depth_ = 0;      ///< depth of nested conditions
   std::vector<PythonField> fields_;
 };
 

@@ -14,7 +14,7 @@ std::string choices_text(std::span<const char* const> names) {
   return fmt::format("\"{}\"", fmt::join(names, "\" | \""));
 }
 
-// Turns fields into "key, TOML text of the value"; what becomes of them is up to the derived class.
+// Turns fields into "key, TOML text of the value"; the derived class decides what becomes of them.
 class ValueVisitor : public FieldVisitor {
  public:
   using FieldVisitor::field;
@@ -41,11 +41,11 @@ class ValueVisitor : public FieldVisitor {
   void array(const Field& field, const List& entries) override;
 
  protected:
-  /// `choices`: the words a choice may be, else empty.
+  /// `choices` lists the words that a choice may be; it is empty for other fields.
   virtual void put(const Field& field, const std::string& value, const std::string& choices) = 0;
 };
 
-// The applicable fields of an inline table as "key = value, …", or their values only.
+// Writes the applicable fields of an inline table as "key = value, …", or their values only.
 class InlineWriter final : public ValueVisitor {
  public:
   std::string text() const {
@@ -91,7 +91,7 @@ class InlineWriter final : public ValueVisitor {
   }
 
   std::vector<std::pair<std::string, std::string>> items_;
-  std::string choices_;  ///< of the last field
+  std::string choices_;  ///< choices of the last field
 };
 
 void ValueVisitor::array(const Field& field, const List& entries) {
@@ -117,7 +117,7 @@ std::string inline_text(const FieldVisitor::Inside& inside) {
   return writer.text();
 }
 
-// The fields of a document, with comments (template) or without (effective parameters).
+// Writes the fields of a document, with comments (template) or without (effective parameters).
 class DocumentWriter final : public ValueVisitor {
  public:
   DocumentWriter(bool comments, std::string path) : comments_(comments), path_(std::move(path)) {}
@@ -136,7 +136,7 @@ class DocumentWriter final : public ValueVisitor {
 
   void list(const Field& field, const List& list) override {
     for (std::size_t i = 0; i < list.size(); ++i) {
-      // One explanation is enough.
+      // Only the first entry is explained.
       DocumentWriter entry(comments_ && i == 0, joined(field.key));
       list.describe(i, entry);
       blank_line();
@@ -223,7 +223,7 @@ class DocumentWriter final : public ValueVisitor {
   std::string text_;
 };
 
-// Comment lines for the fields of an inline table, which has no room for comments of its own.
+// Writes comment lines for the fields of an inline table, which has no room for comments of its own.
 class InlineComments final : public ValueVisitor {
  public:
   const std::string& text() const { return text_; }
@@ -265,7 +265,7 @@ void DocumentWriter::comment_inline_fields(const Inside& inside) {
   text_ += inner.text();
 }
 
-// One Markdown table per section; inline tables become rows key.field.
+// Writes one Markdown table per section; fields of inline tables become rows key.field.
 class TableWriter final : public ValueVisitor {
  public:
   explicit TableWriter(std::string path) : path_(std::move(path)) {}
@@ -374,7 +374,7 @@ class FieldFinder final : public ValueVisitor {
     if (!found_ && field.key == rest_) found_ = field;
   }
 
-  /// What follows a key and a dot, if the rest begins with them.
+  /// Returns what follows a key and a dot, if the rest begins with them.
   std::optional<std::string> behind(const std::string& key) const {
     if (!rest_.starts_with(key + ".")) return std::nullopt;
     return rest_.substr(key.size() + 1);

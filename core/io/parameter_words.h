@@ -5,13 +5,13 @@
 #include "core/io/parameters.h"
 
 /// @file
-/// Words about parameters, in text that people read.
+/// Texts about parameters, for people.
 namespace vitrel {
 
-/// Lines of at most `width` bytes, each behind `lead`.
+/// Breaks a text into lines of at most `width` bytes, each behind `lead`.
 std::string wrapped(const std::string& text, const std::string& lead, std::size_t width = 98);
 
-/// "Sentence. One of …. Unit: time.", the explanation of a field; `choices` may be empty.
+/// Returns the explanation of a field, "Sentence. One of …. Unit: time."; `choices` may be empty.
 std::string explanation(const Field& field, const std::string& choices);
 
 }  // namespace vitrel

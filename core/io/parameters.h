@@ -16,9 +16,8 @@
 #include "core/state/bounds.h"
 
 /// @file
-/// Parameters are plain structs. One function per struct, describe(struct, visitor), names its
-/// fields; from it come the reading of TOML, the effective parameters as TOML text, the commented
-/// template and the reference page:
+/// Parameters are plain structs. One function per struct, describe(struct, visitor), names its fields. It serves to
+/// read TOML and to write the effective parameters as TOML text, the commented template and the reference page:
 ///
 ///     void describe(Dynamics& p, FieldVisitor& visit) {
 ///       visit.field({"duration", "time", "Length of the sampled part of the run."}, p.duration);
@@ -29,25 +28,25 @@ struct Field {
   std::string key;
   std::string unit;             ///< "" for pure numbers, words and flags
   std::string sentence;         ///< what the field means
-  Bounds bounds = {};           ///< of every number of the field
-  std::string former_key = {};  ///< of earlier versions, still read; "" for none
+  Bounds bounds = {};           ///< bounds of every number of the field
+  std::string former_key = {};  ///< key of earlier versions, still read; "" for none
   std::string symbol = {};      ///< "φ", for axes of charts; "" for none
 
-  /// The symbol, or else the key with blanks.
+  /// Returns the symbol or, without one, the key with blanks for underscores.
   std::string short_name() const;
 };
 
-/// Dotted keys and the values each of them takes, as TOML text ("0.5", "\"brownian\"").
+/// Dotted keys and the values that each key takes, as TOML text ("0.5", "\"brownian\"").
 using ParameterGrid = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 class FieldVisitor {
  public:
   using Inside = std::function<void(FieldVisitor&)>;
-  /// `section`: written as [key]; `inline_table`: written as key = { … }.
+  /// A section is written as [key], an inline table as key = { … }.
   enum class TableStyle { section, inline_table };
   struct List {
     std::function<std::size_t()> size;
-    std::function<void(std::size_t)> resize;  ///< of an array: none if its size is fixed
+    std::function<void(std::size_t)> resize;  ///< none for an array of fixed size
     std::function<void(std::size_t, FieldVisitor&)> describe;
     Inside describe_blank;  ///< describes a default entry
   };
@@ -59,7 +58,7 @@ class FieldVisitor {
   virtual void field(const Field&, std::string&) = 0;
   /// A number with a unit, given as a string in any unit that converts to the field's own.
   virtual void quantity(const Field&, double&) = 0;
-  /// As many numbers as `values` has room for.
+  /// As many numbers as `values` has elements.
   virtual void numbers(const Field&, std::span<double> values) = 0;
   /// Any number of numbers.
   virtual void field(const Field&, std::vector<double>&) = 0;
@@ -69,11 +68,11 @@ class FieldVisitor {
   }
   /// An integer from `low` to `high`.
   virtual void integer(const Field&, std::int64_t& value, std::int64_t low, std::int64_t high) = 0;
-  /// One of `names`, by its index.
+  /// One of `names`, given by its index.
   virtual void choice(const Field&, std::size_t& index, std::span<const char* const> names) = 0;
   virtual void table(const Field&, TableStyle, const Inside& inside) = 0;
   virtual void list(const Field&, const List& list) = 0;
-  /// A value, or a table of fields instead; `is_table` tells which. `value` names the one field that it is otherwise.
+  /// A value, or a table of fields instead; `is_table` tells which. `value` names the one field of the value.
   virtual void value_or_table(const Field& field, bool& is_table, const Inside& value,
                               const Inside& inside) {
     if (is_table)
@@ -83,12 +82,11 @@ class FieldVisitor {
   }
   /// An array; `describe` names the one field of each entry, whose key is its number.
   virtual void array(const Field&, const List& entries) = 0;
-  /// A field that may be left out; `present` tells whether it is there. `inside` names the one
-  /// field.
+  /// A field that may be left out; `present` tells whether it is there. `inside` names the one field.
   virtual void optional(const Field&, bool& present, const Inside& inside) {
     if (present) inside(*this);
   }
-  /// Fields that exist only under `condition`, which `label` puts in words ("method = \"insert\"").
+  /// Fields that exist only under `condition`; `label` states the condition in words ("method = \"insert\"").
   virtual void when(bool condition, const std::string& /*label*/, const Inside& inside) {
     if (condition) inside(*this);
   }
@@ -119,7 +117,7 @@ class FieldVisitor {
     value = static_cast<Enum>(index);
   }
 
-  /// A value that may be left out; `example` stands in the template.
+  /// A value that may be left out; the template shows `example`.
   template <class T, class Describe>
   void optional(const Field& field, std::optional<T>& value, T example, Describe&& describe) {
     bool present = value.has_value();
@@ -146,7 +144,7 @@ class FieldVisitor {
     list(field, entries);
   }
 
-  /// An array of entries, of any number if they are in a vector, where new ones are equal to `blank`.
+  /// An array of entries. If they are in a vector, their number may change, and new ones are equal to `blank`.
   /// describe(field, entry, visitor) names the one field of each entry.
   template <class Entries, class Describe>
   void array(const Field& field, Entries& entries, const typename Entries::value_type& blank,
@@ -162,44 +160,44 @@ class FieldVisitor {
   }
 };
 
-/// An impossible value, as `validate` finds it: the dotted key, and "is …, but must be …".
+/// An impossible value that `validate` finds: the dotted key, and "is …, but must be …".
 struct BadValue : UserError {
   BadValue(std::string dotted_key, const std::string& complaint)
       : UserError("key '" + dotted_key + "' " + complaint), key(std::move(dotted_key)) {}
   std::string key;
 };
 
-/// Reads the fields of `describe` from a document; fields it does not mention keep their value. An
-/// unknown key or a value of the wrong type throws UserError with file:line:column, what is wrong
-/// and what would be right; so does a BadValue thrown by `validate`, which runs last.
+/// Reads the fields of `describe` from a document; fields that it does not mention keep their value. An unknown key or
+/// a value of the wrong type throws UserError with file:line:column, what is wrong and what would be right. A BadValue
+/// thrown by `validate`, which runs last, becomes such a UserError.
 void read_parameters(const TomlNode& root, const FieldVisitor::Inside& describe,
                      const std::function<void()>& validate);
 
-/// The field with this dotted key, which counts the entries of lists ("species.0.mass"), whether or not it is given;
-/// nothing if there is none. An entry of an array is part of the array's field.
+/// Returns the field with this dotted key, which counts the entries of lists ("species.0.mass"), whether or not a value
+/// is given; nothing if there is none. An entry of an array is part of the array's field.
 std::optional<Field> find_field(const FieldVisitor::Inside& describe,
                                 const std::string& dotted_key);
 
 /// Throws BadValue for the first number outside the bounds of its field.
 void check_bounds(const FieldVisitor::Inside& describe);
 
-/// The fields as TOML text, equal values giving equal text, doubles to the last bit.
+/// Returns the fields as TOML text. Equal values give equal text, and doubles are exact to the last bit.
 std::string write_parameters(const FieldVisitor::Inside& describe);
 
-/// The same with every field explained; fields that may be left out are commented out.
+/// Returns the TOML text with every field explained; fields that may be left out are commented out.
 std::string parameter_template(const FieldVisitor::Inside& describe);
 
-/// The reference page's tables, as Markdown.
+/// Returns the tables of the reference page as Markdown.
 std::string parameter_tables(const FieldVisitor::Inside& describe);
 
-/// Classes of Python: a TypedDict of every section, and a dataclass of every table in one, or several if the table has
-/// several forms, named after the table or the form. No class has a `reserved` name. All are based on names that the
-/// text does not define: Setting, Keys (a table as a mapping), Numbers and Array.
+/// Returns Python classes: a TypedDict for every section, and for every table in a section a dataclass, or several if
+/// the table has several forms, named after the table or the form. No class has a `reserved` name. All rely on names
+/// that the text does not define: Setting, Keys (a table as a mapping), Numbers and Array.
 std::string python_parameters(const FieldVisitor::Inside& describe,
                               const std::vector<std::string>& reserved);
 
-/// The first dotted key in which two parameter texts (as written by write_parameters) differ, with
-/// both values; keys for which `harmless` holds are passed over.
+/// The first dotted key in which two parameter texts (as written by write_parameters) differ, with both values. Keys
+/// for which `harmless` holds are skipped.
 struct ParameterDifference {
   std::string key, first, second;  ///< a missing value is "nothing"
 };

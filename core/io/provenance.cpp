@@ -11,7 +11,7 @@
 namespace vitrel {
 namespace {
 
-/// HDF5 limits an attribute to 64 KB, its header included.
+/// HDF5 limits an attribute, including its header, to 64 KB.
 constexpr std::size_t longest_attribute = 60'000;
 
 std::string host_name() {

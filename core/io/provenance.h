@@ -7,21 +7,21 @@
 
 namespace vitrel {
 
-/// Where a file comes from. Host, author, start and wall time differ between two runs of the same
-/// parameters; every dataset outside /parameters does not.
+/// The origin of a file. Host, author, start and wall time differ between two runs of the same parameters; no dataset
+/// outside /parameters does.
 struct Provenance {
-  std::string version;  ///< of the program
-  std::string commit;   ///< of its sources; "-modified" appended if they differed, or "unknown"
+  std::string version;  ///< version of the program
+  std::string commit;   ///< commit of the sources, with "-modified" if they differed; or "unknown"
   std::string command_line;
   std::string host;
   std::string author;      ///< login name, or "unknown"
   std::string parameters;  ///< TOML text
   std::uint64_t seed = 0;
   int dimension = 2;
-  std::string parent;       ///< file the run started from; empty: none
+  std::string parent;       ///< file that the run started from; empty: none
   std::string started;      ///< UTC, "2024-05-01T12:00:00Z"
-  double wall_seconds = 0;  ///< time spent on the file so far, all continuations together
-  std::string model;        ///< what was chosen to simulate the particles, and why; may be empty
+  double wall_seconds = 0;  ///< time spent on the file so far, including all continuations
+  std::string model;        ///< the model chosen for the particles, and why; may be empty
 };
 
 std::string program_version();
@@ -36,7 +36,7 @@ Provenance current_provenance(std::string command_line, std::string parameters, 
 void write_provenance(h5::Group& group, const Provenance& provenance);
 /// Replaces the TOML text.
 void replace_parameters(h5::Group& group, const std::string& toml);
-/// Fields that are not there keep their defaults.
+/// Reads the fields; those that are not there keep their defaults.
 Provenance read_provenance(const h5::Group& group);
 
 }  // namespace vitrel

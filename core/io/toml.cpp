@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "core/io/text_file.h"
 
-// The only file that includes toml++.
+// This is the only file that includes toml++.
 namespace vitrel {
 namespace {
 
@@ -30,7 +30,7 @@ TomlNode::Table convert_table(const toml::table& table, const std::string& name)
     const toml::source_position at = key.source().begin;
     entries.push_back({at, {std::string(key.str()), place(at, name), convert(child, name)}});
   }
-  // toml++ sorts by name; people expect the order of the file.
+  // toml++ sorts by name, but people expect the order of the file.
   std::stable_sort(entries.begin(), entries.end(),
                    [](const auto& x, const auto& y) { return x.first < y.first; });
   TomlNode::Table result;
@@ -69,7 +69,7 @@ std::optional<std::size_t> as_index(std::string_view part) {
   return index;
 }
 
-/// A word, or a number with a unit; beyond ASCII may be any letter.
+/// Returns whether a text is a word, or a number with a unit; bytes beyond ASCII may be any letter.
 bool is_bare_text(std::string_view text) {
   constexpr std::string_view marks = "_-+./^ ";
   return !text.empty() && std::ranges::all_of(text, [&](char c) {
@@ -108,8 +108,8 @@ bool begins_with_key(std::string_view path, std::string_view key) {
   return path.starts_with(key) && (path.size() == key.size() || path[key.size()] == '.');
 }
 
-// What the first part of a dotted key leads to, null if nothing, and the length of that part. A key
-// of a table may have dots itself: "system.seed" = 1.
+// Returns the node that the first part of a dotted key leads to, null if there is none, and the length of that part. A
+// key of a table may have dots itself: "system.seed" = 1.
 std::pair<const TomlNode*, std::size_t> enter(const TomlNode& node, std::string_view path) {
   if (const auto* array = node.get<TomlNode::Array>()) {
     const std::string_view part = path.substr(0, path.find('.'));
@@ -122,7 +122,7 @@ std::pair<const TomlNode*, std::size_t> enter(const TomlNode& node, std::string_
   return {nullptr, 0};
 }
 
-// The entry `part` of `parent`, made if it is missing; `made` is what a new entry starts as.
+// Returns the entry `part` of `parent`, which starts as `made` if it is missing.
 TomlNode& descend(TomlNode& parent, const std::string& part, const std::string& walked,
                   const TomlNode& made, const std::string& option) {
   if (auto* array = parent.get<TomlNode::Array>()) {
@@ -145,7 +145,7 @@ TomlNode& descend(TomlNode& parent, const std::string& part, const std::string& 
   return table->back().node;
 }
 
-/// The first part of a dotted key, or the whole key of an entry that is there, which may have dots itself
+/// Returns the first part of a dotted key, or the whole key of an entry that is there, which may have dots itself
 /// ("system.seed" = 1).
 std::string first_key(const TomlNode& parent, std::string_view path) {
   if (const auto [child, length] = enter(parent, path); child)

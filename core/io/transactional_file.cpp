@@ -23,9 +23,9 @@ namespace {
 
 /// The last bytes of a file with a journal.
 struct Trailer {
-  std::uint64_t begin;     ///< where the journal starts: page number and page, one after another
-  std::uint64_t size;      ///< of the file once the journal is cut off
-  std::uint64_t checksum;  ///< of the journal, begin and size
+  std::uint64_t begin;     ///< start of the journal, a sequence of page numbers and pages
+  std::uint64_t size;      ///< size of the file once the journal is cut off
+  std::uint64_t checksum;  ///< checksum of the journal, begin and size
   std::array<char, 8> magic;
 };
 constexpr std::array<char, 8> journal_magic{'v', 't', 'r', 'l', 'j', 'r', 'n', '1'};
@@ -67,7 +67,8 @@ bool locking_is_off() {
   return setting && (std::string(setting) == "FALSE" || std::string(setting) == "0");
 }
 
-/// Tries again for a few milliseconds: another process may be between two of its system calls.
+/// Returns whether `succeeds` returns true within some milliseconds: another process may be between two of its system
+/// calls.
 bool succeeds_soon(const std::function<bool()>& succeeds) {
   constexpr int attempts = 10;
   for (int attempt = 0; attempt < attempts; ++attempt) {
@@ -107,16 +108,16 @@ void TransactionalFile::open() {
 }
 
 TransactionalFile::~TransactionalFile() {
-  // Gives the space of what was not committed back.
+  // The space of what was not committed is given back.
   if (writable() && !journal_is_whole_) set_file_size(committed_);
   if (writable() && record_ && committed_ > 0 && failure_.empty()) {
     record_->is_written = 0;
     write_record();
   }
-  static_cast<void>(::close(descriptor_));  // what has to be on the disk was synchronized
+  static_cast<void>(::close(descriptor_));  // everything that must be on disk was synchronized
 }
 
-/// Where there are no locks, reading goes on, but writing is refused.
+/// Where the file system has no locks, reading is allowed, but writing is refused.
 bool TransactionalFile::try_lock(int kind) {
   if (locking_is_off() || ::flock(descriptor_, kind | LOCK_NB) == 0) return true;
   if (errno == EWOULDBLOCK || errno == EINTR) return false;
@@ -128,7 +129,7 @@ bool TransactionalFile::try_lock(int kind) {
   return true;
 }
 
-/// A reader holds the lock for a moment only, to find out whether another process writes.
+/// Readers hold the lock for a moment only, to find out whether another process writes, so the writer tries again.
 void TransactionalFile::lock_for_writing() {
   if (!succeeds_soon([this] { return try_lock(LOCK_EX); })) fail(path_, opening(mode_), in_use);
 }
@@ -143,7 +144,7 @@ void TransactionalFile::lock_for_reading() {
   };
   if (!succeeds_soon(is_readable)) fail(path_, opening(mode_), in_use);
   if (has_commits)
-    static_cast<void>(::flock(descriptor_, LOCK_UN));  // it ends with the reader anyway
+    static_cast<void>(::flock(descriptor_, LOCK_UN));  // the lock ends with the reader anyway
 }
 
 bool TransactionalFile::read_file(std::uint64_t offset, std::span<std::byte> bytes) {
@@ -233,14 +234,14 @@ void TransactionalFile::commit() {
   if (record_) prepare_record();
   if (!failure_.empty() || !set_file_size(std::max(size_, committed_)) || !append_journal())
     fail(path_, "write", failure_);
-  // Should the next step fail, the next opening repeats it.
+  // If the next step fails, the next opening repeats it.
   journal_is_whole_ = true;
   if (!apply_pages()) fail(path_, "write", failure_);
   journal_is_whole_ = false;
   is_dirty_ = false;
 }
 
-/// The record and the mark are part of the journal.
+/// Prepares the record and the mark, which are part of the journal.
 void TransactionalFile::prepare_record() {
   ++record_->begun;
   size_ = std::max(size_, free_from());
@@ -299,7 +300,7 @@ void TransactionalFile::give_up(const std::string& reason) {
 }
 
 void TransactionalFile::synchronize() {
-  // EINVAL: a file system that has nothing to wait for.
+  // EINVAL means that the file system has nothing to wait for.
   if (::fsync(descriptor_) != 0 && errno != EINVAL)
     fail(path_, "save to the disk", system_message());
 }
@@ -325,7 +326,7 @@ void TransactionalFile::refresh() {
   take_state();
 }
 
-/// A commit that is under way ends soon or leaves a journal.
+/// Tries again, as a commit that is under way ends soon or leaves a journal.
 void TransactionalFile::take_state() {
   const bool has_state = succeeds_soon([this] {
     state_ = look_for_state();
@@ -359,7 +360,7 @@ std::uint64_t TransactionalFile::look_for_state() {
   if (mark.end <= found_size)
     read_file(mark.place, std::as_writable_bytes(std::span(&found.mark, 1)));
   const std::uint64_t state = state_of(found);
-  if (found.journal != state) {  // its commit did not begin
+  if (found.journal != state) {  // the commit of the journal did not begin
     pages_.clear();
     size_ = found_size;
   }
@@ -379,7 +380,7 @@ CommitRecord TransactionalFile::stored_record() {
   return record;
 }
 
-/// HDF5 calls this, so it must not throw.
+/// HDF5 calls this function, so it must not throw.
 bool TransactionalFile::is_unchanged() {
   CommitRecord now;
   if (!read_file(0, std::as_writable_bytes(std::span(&now, 1)))) return false;

@@ -13,69 +13,70 @@
 
 namespace vitrel {
 
-/// A file that changes all at once: what is written since the last commit shows up in the file only
-/// by the next `commit`, whole or not at all, even if the process is killed in the middle of it or
-/// the disk is full. (A loss of power is survived as far as `synchronize` was called.)
+/// A file that changes all at once: what is written since the last commit reaches the file by the next `commit`, whole
+/// or not at all, even if the process is killed in the middle of it or the disk is full. (A loss of power is survived
+/// as far as `synchronize` was called.)
 ///
-/// Bytes beyond the committed end are written at once, since nothing refers to them yet; changed
-/// pages before it stay in memory. `commit`
+/// Bytes beyond the committed end are written at once, since nothing refers to them yet; changed pages before it stay
+/// in memory. `commit`
 ///   1. extends the file to its new size,
 ///   2. appends a journal: the changed pages, their places, and last a checksum,
 ///   3. notes in the CommitRecord, and behind the old end, that it begins,
 ///   4. writes the pages to their places,
 ///   5. notes in the record that it is done, and cuts the journal off.
-/// A process killed in 1 or 2 leaves the old content (and bytes beyond its end, which nothing
-/// refers to); killed later it leaves a whole journal, and opening the file does 4 and 5 again
-/// (in memory only, if it is opened for reading). The journal is part of the file, so that a copy
-/// has it too.
+///
+/// A process killed in step 1 or 2 leaves the old content (and bytes beyond its end, which nothing refers to). A
+/// process killed later leaves a whole journal, and opening the file repeats steps 4 and 5 (in memory only, if it is
+/// opened for reading). The journal is part of the file, so a copy has it, too.
 ///
 /// A file may be read while another process writes it. A reader sees the content of one commit: after every access it
-/// compares the record, and reading fails if a later commit has begun (`has_changed`) until `refresh` goes on to that
-/// one. A copy that was made during a commit and mixes its pages with earlier ones is refused. Both rely on readers
-/// seeing writes in the order in which they were made, as processes of one machine do; machines that share a folder by
-/// NFS need not. A file without a record, of another program or of vitrel up to 0.2, can be read only while no process
-/// writes it.
+/// compares the record, and reading fails if a later commit has begun (`has_changed`) until `refresh` continues with
+/// that commit. A copy that was made during a commit and mixes its pages with earlier ones is refused. Both rely on
+/// readers seeing writes in the order in which they were made, as processes of one machine do; machines that share a
+/// folder by NFS need not. A file without a record, which another program or vitrel up to 0.2 wrote, can be read only
+/// while no process writes it.
 ///
-/// Writing never fails towards the caller: the first failure is noted, everything after it is kept
-/// in memory, and `commit` reports it. One process at a time may write, by an advisory lock. Where the file system has no
-/// locks, writing is refused, unless HDF5_USE_FILE_LOCKING is FALSE: then the user sees to it.
+/// Writing never reports a failure to the caller: the first failure is noted, everything after it is kept in memory,
+/// and `commit` reports it. An advisory lock lets one process at a time write. Where the file system has no locks,
+/// writing is refused, unless HDF5_USE_FILE_LOCKING is FALSE: then the user must make sure that only one process
+/// writes.
 class TransactionalFile {
  public:
   enum class Mode { read, write, create };
-  /// `create` starts an empty file, in place of one of the same name; its first commit_record_block bytes are not the
-  /// caller's. Throws FileError.
+  /// `create` starts an empty file, which replaces one of the same name; its first commit_record_block bytes do not
+  /// belong to the caller. Throws FileError.
   TransactionalFile(std::filesystem::path path, Mode mode);
-  /// Gives up what was not committed.
+  /// Discards what was not committed.
   ~TransactionalFile();
   TransactionalFile(const TransactionalFile&) = delete;
   TransactionalFile& operator=(const TransactionalFile&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Messages name this path from now on: the file was renamed.
+  /// Makes messages name this path, after the file was renamed.
   void set_path(std::filesystem::path path) { path_ = std::move(path); }
   bool writable() const { return mode_ != Mode::read; }
   std::uint64_t size() const { return size_; }
-  /// Why reading or writing failed first; empty if it did not.
+  /// The reason why reading or writing failed first; empty if it did not.
   const std::string& failure() const { return failure_; }
-  /// The first byte that the caller may use for what is new.
+  /// Returns the first byte that the caller may use for new content.
   std::uint64_t free_from() const;
   /// Whether another process had the file open for writing when this one opened it.
   bool is_being_written() const { return is_being_written_; }
   /// Whether reading failed because another process has changed the file since it was opened, or refreshed.
   bool has_changed() const { return has_changed_; }
-  /// Goes on to the present state of a file that is read. Throws FileError.
+  /// Continues with the present state of a file that is read. Throws FileError.
   void refresh();
 
-  /// Bytes beyond the end are 0. False on failure.
+  /// Reads bytes; those beyond the end are 0. Returns false on failure.
   bool read(std::uint64_t offset, std::span<std::byte> bytes);
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
   void resize(std::uint64_t size);
-  /// Throws FileError; the file then has the content of the last commit (or, if step 3 failed, is
-  /// completed by the next opening), and every later commit throws.
+  /// Commits what was written. Throws FileError. The file then has the content of the last commit (or, if the commit
+  /// failed after step 2, the next opening may complete it), and every later commit throws.
   void commit();
-  /// From now on nothing is written; every later commit throws.
+  /// Makes sure that nothing is written from now on; every later commit throws.
   void give_up(const std::string& reason);
-  /// Waits until the disk has what was committed. Throws FileError.
+  /// Waits until what was committed is on disk. Throws FileError.
   void synchronize();
 
  private:
@@ -90,7 +91,7 @@ class TransactionalFile {
   bool write_file(std::uint64_t offset, std::span<const std::byte> bytes);
   bool set_file_size(std::uint64_t size);
   Page& page(std::uint64_t index);
-  /// Number of pages that the committed content touches.
+  /// Returns the number of pages that the committed content touches.
   std::uint64_t committed_pages() const { return (committed_ + page_size - 1) / page_size; }
   bool append_journal();
   bool apply_pages();
@@ -108,7 +109,7 @@ class TransactionalFile {
   std::filesystem::path path_;
   Mode mode_;
   int descriptor_ = -1;
-  std::uint64_t size_ = 0;               ///< as the caller sees it
+  std::uint64_t size_ = 0;               ///< size as the caller sees it
   std::uint64_t committed_ = 0;          ///< size at the last commit
   std::map<std::uint64_t, Page> pages_;  ///< content that differs from the file's, by page number
   std::string failure_;

@@ -4,7 +4,7 @@
 
 namespace vitrel {
 
-/// The checksum FNV-1a, taken over 64-bit words instead of bytes.
+/// The checksum FNV-1a, computed over 64-bit words instead of bytes.
 class WordChecksum {
  public:
   void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 0x100000001b3u; }

@@ -12,15 +12,15 @@
 
 namespace vitrel {
 
-/// A cell list: points in the cells of a periodic box.
+/// A cell list for points in a periodic box.
 ///
-/// A query visits the cells that its reach covers in unwrapped cell coordinates. A cell outside the box is the
-/// image of one inside, and the number of boxes between them is the shift. So each image (j, shift) within reach is
-/// found exactly once, in boxes of any size, down to a single cell. Insert and move cost O(1).
+/// A query visits the cells that its reach covers in unwrapped cell coordinates. A cell outside the box is the image of
+/// one inside, and the number of boxes between them is the shift. Each image (j, shift) within reach is therefore found
+/// exactly once, in boxes of any size, down to a single cell. Insert and move cost O(1).
 template <int Dim>
 class CellGrid {
  public:
-  /// For about `particles` points and queries of about `reach`.
+  /// Makes cells for about `particles` points and queries of about `reach`.
   CellGrid(const PeriodicBox<Dim>& box, double reach, std::size_t particles) : box_(box) {
     constexpr double cells_per_particle = 4;
     const double max_count = std::ceil(root(cells_per_particle * particles, Dim)) + 1;
@@ -52,10 +52,9 @@ class CellGrid {
   std::size_t size() const { return points_.size(); }
   const Vec<Dim>& operator[](std::size_t i) const { return points_[i].position; }
 
-  /// Calls visit(j, shift, separation) for every image r_j + shift ∘ L within `reach` of
-  /// `position`, which may lie outside the box; separation = r_j + shift ∘ L − position. A point at
-  /// `position` itself is among them. A visit that returns false ends the query; the result tells
-  /// whether all were visited.
+  /// Calls visit(j, shift, separation) for every image r_j + shift ∘ L within `reach` of `position`, which may lie
+  /// outside the box; separation = r_j + shift ∘ L − position. A point at `position` itself is among them. A visit that
+  /// returns false ends the query. Returns whether all images were visited.
   template <class Visit>
   bool for_each_near(const Vec<Dim>& position, double reach, Visit&& visit) const {
     return for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>& shift) {
@@ -74,7 +73,7 @@ class CellGrid {
   static constexpr Index none = std::numeric_limits<Index>::max();
   struct Point {
     Vec<Dim> position;
-    Index next = none;  // of the same cell
+    Index next = none;  // the next point in the cell
   };
   struct Range {
     std::int64_t low, high;
@@ -93,7 +92,7 @@ class CellGrid {
     }
   }
 
-  // visit(cell, shift) for the cells within reach, until one returns false.
+  // Calls visit(cell, shift) for the cells within reach, until one call returns false.
   template <class Visit>
   bool for_each_cell(const Vec<Dim>& position, double reach, Visit&& visit) const {
     Range ranges[Dim];
@@ -102,7 +101,8 @@ class CellGrid {
     return walk<0>(ranges, 0, shift, visit);
   }
 
-  // The same over directions k and later; `before` is the cell number from the directions before.
+  // Visits the cells within `ranges` in direction k and later directions; `before` is the cell number from the
+  // directions before k.
   template <int k, class Visit>
   bool walk(const Range (&ranges)[Dim], std::int64_t before, Shift<Dim>& shift,
             Visit& visit) const {
@@ -118,7 +118,7 @@ class CellGrid {
     return true;
   }
 
-  // How many boxes a cell lies beyond the first.
+  // Returns how many boxes a cell lies beyond the first.
   std::int32_t boxes_off(std::int64_t cell, int k) const {
     std::int32_t boxes = 0;
     for (; cell < 0; cell += count_[k]) --boxes;
@@ -126,7 +126,7 @@ class CellGrid {
     return boxes;
   }
 
-  // Cells that [position − reach, position + reach] covers, with a margin for rounding at the edges.
+  // Returns the cells that [position − reach, position + reach] covers, with a margin for rounding at the edges.
   Range covered(const Vec<Dim>& position, double reach, int k) const {
     const double centre = position[k] + 0.5 * box_.lengths()[k];
     const double half = reach + 1e-12 * (reach + box_.lengths()[k]);
@@ -158,7 +158,7 @@ class CellGrid {
   PeriodicBox<Dim> box_;
   std::int64_t count_[Dim];
   double width_[Dim];
-  std::vector<Index> first_;  // of every cell, the last direction fastest
+  std::vector<Index> first_;  // first point of every cell, the last direction fastest
   std::vector<Point> points_;
 };
 

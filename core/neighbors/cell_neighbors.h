@@ -16,20 +16,20 @@
 
 namespace vitrel {
 
-/// The least width of the cells of CellNeighbors. What is more than the largest diameter covers rounding: a position
-/// may be outside of its cell by CellNeighbors::slack.
+/// Returns the minimum width of the cells of CellNeighbors. The excess over the largest diameter covers rounding: a
+/// position may be outside its cell by CellNeighbors::slack.
 constexpr double min_cell_width(double max_radius) {
   return 2.2 * max_radius;
 }
 
-/// Whether a box holds the cells of CellNeighbors: three in each direction.
+/// Returns whether a box holds the cells of CellNeighbors, of which there must be three in each direction.
 template <int Dim>
 bool cells_fit(const PeriodicBox<Dim>& box, double max_radius) {
   return box.lengths().minCoeff() >= 3 * min_cell_width(max_radius);
 }
 
-/// Neighbours without lists, for gases of disks and spheres: those of a particle are the particles in its own cell and
-/// in the 3^D − 1 cells around it.
+/// Neighbours without lists, for gases of disks and spheres: the neighbours of a particle are the other particles in
+/// its own cell and in the 3^D − 1 cells around it.
 ///
 /// A particle changes its cell when its centre reaches a wall, and gains the particles in the 3^(D−1) cells ahead;
 /// nothing is stored per pair. In a gas a particle changes its neighbours many times between two collisions, and
@@ -40,7 +40,7 @@ class CellNeighbors {
   using Vector = Vec<dimension>;
 
  public:
-  /// `positions` are wrapped into the box, which the cells must fit.
+  /// `positions` are wrapped into the box, which must hold the cells (cells_fit).
   CellNeighbors(const PeriodicBox<dimension>& box, double max_radius,
                 std::span<const Vector> positions)
       : lower_(-0.5 * box.lengths()) {
@@ -64,22 +64,22 @@ class CellNeighbors {
     for (std::uint32_t i = 0; i < cell_.size(); ++i) contents_.add(number(cell_[i]), i);
   }
 
-  /// The neighbours of particle i. The span is valid until the next call in the same thread.
+  /// Returns the neighbours of particle i. The span is valid until the next call in the same thread.
   std::span<Neighbor<B>> of(std::size_t i) const {
     Cell first, last;
     for (int k = 0; k < dimension; ++k) first[k] = cell_[i][k] - 1, last[k] = cell_[i][k] + 1;
     return collect(i, first, last);
   }
 
-  /// The time until the centre of particle i reaches a wall of its cell; 0 if it is outside.
+  /// Returns the time until the centre of particle i reaches a wall of its cell; 0 if it is outside.
   double exit_time(std::size_t i, const Vector& position, const Vector& velocity) const {
     return std::max(next_wall(i, position, velocity).time, 0.0);
   }
 
-  /// What a particle that has reached a wall gains.
+  /// The result of crossing a wall: the neighbours that the particle gains, and the boxes that it leaves.
   struct Crossing {
     std::span<Neighbor<B>> gained;  ///< valid until the next call in the same thread
-    Shift<dimension> boxes;         ///< left: the position decreases by boxes ∘ L
+    Shift<dimension> boxes;         ///< boxes left: the position decreases by boxes ∘ L
   };
   /// Moves particle i to the cell behind the wall that it has reached.
   Crossing cross(std::size_t i, const Vector& position, const Vector& velocity) {
@@ -97,15 +97,16 @@ class CellNeighbors {
   }
 
  private:
-  /// More mean fewer crossings but more predictions.
+  /// More particles per cell mean fewer crossings but more predictions.
   static constexpr double particles_per_cell = dimension == 2 ? 1 : 0.5;
   using Cell = std::array<std::int32_t, dimension>;
-  /// A position this fraction of a cell outside of it was not reached in flight, but by a displacement.
+  /// A position that is outside its cell by more than this fraction of the width was not reached in flight, but by a
+  /// displacement.
   static constexpr double slack = 1e-6;
   struct Wall {
     double time = std::numeric_limits<double>::infinity();
     int direction = 0;
-    std::int32_t step = 0;  // to the cell behind it
+    std::int32_t step = 0;  // step to the cell behind the wall
   };
 
   Cell cell_at(const Vector& position) const {
@@ -120,7 +121,7 @@ class CellNeighbors {
     for (int k = 0; k < dimension; ++k) sum += static_cast<std::size_t>(cell[k]) * stride_[k];
     return sum;
   }
-  // The cell in the box, and how many boxes away the given one is.
+  // Returns the coordinate of the cell in the box; `boxes` becomes the number of boxes between it and the given cell.
   std::int32_t wrapped(std::int32_t at, int k, std::int32_t& boxes) const {
     boxes = at < 0 ? -1 : (at >= count_[k] ? 1 : 0);
     return at - boxes * count_[k];
@@ -140,7 +141,7 @@ class CellNeighbors {
     return next;
   }
 
-  // The particles of the cells from `first` to `last`, without i itself.
+  // Returns the particles of the cells from `first` to `last`, without i itself.
   std::span<Neighbor<B>> collect(std::size_t i, const Cell& first, const Cell& last) const {
     static thread_local std::vector<Neighbor<B>> found;
     found.clear();
@@ -155,14 +156,14 @@ class CellNeighbors {
     return found;
   }
 
-  // Calls visit(cell) for the cells in directions 0 … k, with their boxes set in `of_cell`.
+  // Calls visit(cell) for the cells in directions 0 … k, and sets their boxes in `of_cell`.
   template <int k, class Visit>
   void for_each_cell(const Cell& first, const Cell& last, std::size_t base, Neighbor<B>& of_cell,
                      Visit&& visit) const {
     for (std::int32_t at = first[k]; at <= last[k]; ++at) {
       std::int32_t boxes;
       const std::size_t cell = base + static_cast<std::size_t>(wrapped(at, k, boxes)) * stride_[k];
-      // Rarely: a store here would delay the copies.
+      // The boxes are stored only when they change, which is rare, because a store here would delay the copies.
       if (of_cell.boxes[k] != boxes) of_cell.boxes[k] = static_cast<std::int16_t>(boxes);
       if constexpr (k == 0)
         visit(cell);
@@ -172,11 +173,11 @@ class CellNeighbors {
   }
 
   Vector lower_;  // corner of the box
-  Cell count_;    // of cells
+  Cell count_;    // number of cells
   std::array<std::size_t, dimension> stride_;
   Vector width_;
-  LargeVector<Cell> cell_;            // of each particle
-  ListPool<std::uint32_t> contents_;  // of each cell
+  LargeVector<Cell> cell_;            // cell of each particle
+  ListPool<std::uint32_t> contents_;  // particles of each cell
 };
 
 }  // namespace vitrel

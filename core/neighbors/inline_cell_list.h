@@ -17,8 +17,8 @@
 
 namespace vitrel {
 
-/// A cell list with the positions of its points inside the cells, so that a query reads one cache line per cell and
-/// tests four points at once.
+/// A cell list that holds the positions of its points inside the cells, so that a query reads one cache line per cell
+/// and tests four points at once.
 ///
 /// Positions are stored in single precision, relative to the corner of their cell. A query is therefore conservative:
 /// it finds all points of a region, and possibly others within 10⁻⁶ (reach + cell width) of it. A cell outside the box
@@ -28,7 +28,7 @@ class InlineCellList {
  public:
   using Index = std::uint32_t;
 
-  /// For about `points` points, in cells at least `min_width` wide, or as wide as the box.
+  /// Makes cells for about `points` points; they are at least `min_width` wide, or as wide as the box.
   InlineCellList(const PeriodicBox<Dim>& box, double min_width, std::size_t points) : box_(box) {
     constexpr double cells_per_point = 4;
     const double max_count =
@@ -45,7 +45,7 @@ class InlineCellList {
     cells_.resize(static_cast<std::size_t>(cells));
   }
 
-  /// Positions are wrapped into the box.
+  /// Positions must be wrapped into the box.
   void insert(std::size_t i, const Vec<Dim>& position) {
     const Place place = place_of(position);
     insert(cells_[place.cell], static_cast<Index>(i), place.relative);
@@ -72,7 +72,7 @@ class InlineCellList {
     });
   }
 
-  /// Prefetches what a query reads.
+  /// Prefetches the cells that a query reads.
   void prefetch(const Vec<Dim>& centre, double outer) {
     for_each_cell(centre, outer,
                   [&](std::size_t at, const Corner&, const auto&) { prefetch_line(&cells_[at]); });
@@ -83,14 +83,14 @@ class InlineCellList {
   static constexpr float nowhere = 1e18f;
   static constexpr Index none = 0x7fffffff, link = 0x80000000;
   using Floats = detail::FloatRegister;
-  using Corner = std::array<float, Dim>;  // relative to the centre of a query
+  using Corner = std::array<float, Dim>;  // corner relative to the centre of a query
 
   struct Shell {
     float outer_square, inner_square;
     std::array<float, Dim> offset;
   };
 
-  /// Up to four points in any lanes; if there are more, the last lane refers to another cell.
+  /// A cell holds up to four points in any lanes; if there are more, the last lane refers to another cell.
   struct alignas(64) Cell {
     Floats coordinate[Dim];
     std::array<Index, lanes> index;
@@ -108,12 +108,12 @@ class InlineCellList {
     }
     bool is_continued() const { return (index[lanes - 1] & link) != 0; }
     Index continuation() const { return index[lanes - 1] & ~link; }
-    /// The lane of a point, or −1.
+    /// Returns the lane of a point, or −1.
     int lane_of(Index i) const {
       const auto* const found = std::ranges::find(index, i);
       return found == index.end() ? -1 : static_cast<int>(found - index.begin());
     }
-    /// The lanes with points inside the shell.
+    /// Returns the lanes with points inside the shell.
     unsigned inside(const Shell& shell, const Corner& corner) const {
       Floats square{}, inner_square{};
       for (int k = 0; k < Dim; ++k) {
@@ -182,7 +182,7 @@ class InlineCellList {
     further.set(1, i, relative);
     cell.clear(last);
     cell.index[last] = link | static_cast<Index>(overflow_.size());
-    overflow_.push_back(further);  // last, since `cell` may be in the same array
+    overflow_.push_back(further);  // done last, since `cell` may be in the same array
   }
 
   void remove(Cell& first, Index i) {
@@ -195,7 +195,7 @@ class InlineCellList {
     cell->clear(lane);
   }
 
-  // visit(cell, corner, shift_of) for the cells that come within reach of `centre`.
+  // Calls visit(cell, corner, shift_of) for the cells that come within reach of `centre`.
   template <class Visit>
   void for_each_cell(const Vec<Dim>& centre, double reach, Visit&& visit) {
     const double limit = reach + rounding_of(reach);
@@ -243,11 +243,11 @@ class InlineCellList {
   }
 
   PeriodicBox<Dim> box_;
-  std::int32_t count_[Dim];   // of cells
-  std::int64_t stride_[Dim];  // of cell numbers
+  std::int32_t count_[Dim];   // number of cells
+  std::int64_t stride_[Dim];  // step of the cell number
   double width_[Dim], per_width_[Dim];
   LargeVector<Cell> cells_, overflow_;
-  std::vector<Layer> layers_[Dim];  // of the current query
+  std::vector<Layer> layers_[Dim];  // layers of the current query
 };
 
 }  // namespace vitrel

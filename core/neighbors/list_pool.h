@@ -11,16 +11,16 @@
 
 namespace vitrel {
 
-/// Many short lists in one array. A list that exceeds its capacity moves to the end, with twice the capacity; its
+/// Many short lists in one array. A list that exceeds its capacity moves to the end and gets twice the capacity; its
 /// old memory is not reused.
 template <class T>
 class ListPool {
  public:
-  /// Number of lists.
+  /// Makes so many empty lists.
   explicit ListPool(std::size_t lists = 0) : headers_(lists) {}
 
-  /// Empties all lists and gives each the capacity for its count and a few more entries. At most 2³² entries in
-  /// total.
+  /// Empties all lists and gives each the capacity for its count and a few more entries. There may be at most 2³²
+  /// entries in total.
   void reserve(std::span<const std::uint32_t> counts) {
     constexpr std::uint32_t more = 2;
     headers_.clear();
@@ -46,7 +46,7 @@ class ListPool {
     entries_[header.begin + header.count++] = entry;
   }
 
-  /// Prefetches the header of a list and, in a later call, its entries.
+  /// prefetch_header prefetches the header of a list; prefetch_list_header, called later, prefetches its entries.
   void prefetch_header(std::size_t list) const { prefetch_line(&headers_[list]); }
   void prefetch_list_header(std::size_t list) const {
     constexpr std::size_t line = 64;
@@ -60,7 +60,7 @@ class ListPool {
   /// Keeps the first `count` entries.
   void truncate(std::size_t list, std::uint32_t count) { headers_[list].count = count; }
 
-  /// Removes the entries for which `unwanted` holds; the order of the others stays.
+  /// Removes the entries for which `unwanted` holds; the others keep their order.
   template <class Predicate>
   void remove_if(std::size_t list, Predicate unwanted) {
     const std::span<T> entries = (*this)[list];

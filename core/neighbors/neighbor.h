@@ -37,7 +37,7 @@ struct NeighborImage {
   }
 };
 
-/// A neighbour: an image, with the warm start of the contact screen for this pair.
+/// A neighbour, which is an image with the warm start of the contact screen for this pair.
 template <Body B>
 struct Neighbor : NeighborImage<B::dimension> {
   [[no_unique_address]] WarmStart<B> warm_start;

@@ -26,15 +26,15 @@ namespace vitrel {
 
 /// Near-neighbour lists with neighbourhoods shaped like the particles (after Donev, Torquato & Stillinger, 2005).
 ///
-/// Every particle carries a fixed neighbourhood: its own shape at a reference pose, expanded on all sides by
-/// `margin`. While it stays inside, it can touch only particles whose neighbourhoods overlap its own; when it
-/// leaves, only its own reference pose and list are updated. A body displaced by Δr, rotated by Δθ and grown by Δσ
-/// is inside its neighbourhood if
+/// Every particle carries a fixed neighbourhood: its own shape at a reference pose, expanded on all sides by `margin`.
+/// While a particle stays inside its neighbourhood, it can touch only particles whose neighbourhoods overlap its own;
+/// when it leaves, only its own reference pose and list are updated. A body displaced by Δr, rotated by Δθ and grown by
+/// Δσ is inside its neighbourhood if
 ///
 ///     |Δr| + σ max_support_rate |Δθ| + max(Δσ, 0) circumradius ≤ margin,
 ///
-/// since its support function has grown by no more than that in any direction. Two neighbourhoods are disjoint if
-/// the bodies at their reference poses are 2 margin apart.
+/// since its support function has grown by no more than this in any direction. Two neighbourhoods are disjoint if the
+/// bodies at their reference poses are 2 margin apart.
 ///
 /// Cells find candidates, and capsules (capsule.h) discard most of them. A long body still has very many
 /// candidates, because its circumsphere contains most of its surroundings. An outer layer of larger neighbourhoods,
@@ -51,8 +51,8 @@ class Neighborhoods {
  public:
   using Shape = BaseShape<B>;
 
-  /// `shapes` at size 1, one per type, and the type of each particle; both must outlive this object. `poses` are
-  /// wrapped into the box.
+  /// `shapes` holds the shapes at size 1, one per type, and `type_index` the type of each particle; both must outlive
+  /// this object. `poses` are wrapped into the box.
   Neighborhoods(const PeriodicBox<dimension>& box, std::span<const Shape> shapes,
                 const TypeIndex& type_index, std::span<const Pose<dimension>> poses,
                 double target_neighbors)
@@ -83,7 +83,7 @@ class Neighborhoods {
   std::span<Neighbor<B>> of(std::size_t i) { return lists_[i]; }
   std::span<const Neighbor<B>> of(std::size_t i) const { return lists_[i]; }
   double margin() const { return margin_; }
-  /// Whether there is an outer layer.
+  /// Returns whether there is an outer layer.
   bool is_layered() const { return outer_ != nullptr; }
 
   /// Stores the axis of a pair as its warm start; `normal` points from i to the other.
@@ -96,9 +96,9 @@ class Neighborhoods {
     store(with.other, with.reversed_image(i), -normal);
   }
 
-  /// The pose in which particle i, in the box, will have used up a part of the margin, or would have without the faces
-  /// of the box. Around it, the next neighbourhood lasts longer than around the present pose; farther ahead, a collision
-  /// before that costs more than is gained.
+  /// Returns the pose at which particle i, moving freely, will have used up a part of the margin; its position is
+  /// clamped to the box. A neighbourhood around this pose lasts longer than one around the present pose. Farther ahead,
+  /// a collision on the way would cost more than is gained.
   Pose<dimension> ahead_of(std::size_t i, const Pose<dimension>& pose,
                            const Motion<dimension>& motion) const {
     constexpr double part = 0.4;
@@ -124,14 +124,15 @@ class Neighborhoods {
     return kept;
   }
 
-  /// Prefetches what a prediction for particle i reads: the header of its list and, in a later call, the list.
+  /// Prefetch what a prediction for particle i reads: prefetch_list_header the header of its list and, in a later call,
+  /// prefetch_list the list.
   void prefetch_list_header(std::size_t i) const {
     lists_.prefetch_header(i);
     prefetch_line(&references_[i]);
   }
   void prefetch_list(std::size_t i) const { lists_.prefetch_list_header(i); }
-  /// Prefetches what an update at this position reads: the cells and, in a later call, the references of the
-  /// neighbours.
+  /// Prefetch what an update of particle i at this position reads: prefetch_cells the cells and, in a later call,
+  /// prefetch_references the references of the neighbours.
   void prefetch_cells(std::size_t i, const Vector& position) {
     cells_.prefetch(position, reach_of(references_[i], i, 2 * margin_));
   }
@@ -139,11 +140,11 @@ class Neighborhoods {
     for (const Image& neighbor : lists_[i]) prefetch_line(&references_[neighbor.other]);
   }
 
-  /// A time until which particle i, now at `pose` and of the common size, stays inside its neighbourhood; without
-  /// growth exactly the time at which it leaves.
+  /// Returns a time until which particle i, now at `pose` and of the common size, stays inside its neighbourhood;
+  /// without growth, it is exactly the time at which the particle leaves.
   double exit_time(std::size_t i, const Pose<dimension>& pose, const Motion<dimension>& motion,
                    const CommonSize& common) const {
-    // While the size grows by at most this fraction, the support rate of the larger size is a bound.
+    // While the size grows by at most this much, the support rate of the larger size is a bound.
     constexpr double growth_at_once = 0.1;
     const Reference& reference = references_[i];
     const double growing = std::max(common.growth_rate, 0.0);
@@ -165,8 +166,8 @@ class Neighborhoods {
   static constexpr bool is_sphere = std::same_as<Shape, Sphere>;
   struct Empty {};
 
-  /// The pose of a neighbourhood, with the size that the particle had when it was set. Half a cache line in two
-  /// dimensions and for spheres.
+  /// The pose of a neighbourhood, with the size that the particle had when the pose was set. It takes half a cache line
+  /// in two dimensions and for spheres.
   struct alignas(32) Reference {
     Vector position;
     [[no_unique_address]] std::conditional_t<has_capsule, Capsule, Empty> capsule;
@@ -189,7 +190,7 @@ class Neighborhoods {
     Image image;
   };
 
-  /// The outer layer: larger neighbourhoods and the lists of those that overlap.
+  /// The outer layer: larger neighbourhoods, and lists of those that overlap.
   class OuterLayer {
    public:
     /// The margin is at most half of `max_gap`.
@@ -203,12 +204,12 @@ class Neighborhoods {
         link(lists_, pair.i, pair.image);
     }
 
-    /// Outer margin over inner margin.
+    /// The outer margin over the inner margin, unless `max_gap` limits it.
     static constexpr double times = 4;
 
     std::span<const Image> of(std::size_t i) const { return lists_[i]; }
 
-    /// Follows an update of the inner neighbourhood of i.
+    /// Updates the outer layer after the inner neighbourhood of i was updated.
     void update(std::size_t i) {
       if (contains(i, inner_.references_[i])) return;
       cells_.move(i, references_[i].position, inner_.references_[i].position);
@@ -223,7 +224,8 @@ class Neighborhoods {
     }
 
    private:
-    // False for a body that was wrapped to the other side of the box.
+    // Returns whether the body is inside its outer neighbourhood; false for a body that was wrapped to the other side
+    // of the box.
     bool contains(std::size_t i, const Reference& body) const {
       const Reference& mine = references_[i];
       const auto& shape = inner_.shape(i);
@@ -268,14 +270,15 @@ class Neighborhoods {
     return smallest;
   }
 
-  // Cells of the size of the largest particle, or with about this number of particles if they are larger.
+  // Returns the width of cells: half the largest circumradius or, if that is larger, the width for about this number of
+  // particles per cell.
   double cell_width(std::size_t particles) const {
     constexpr double particles_per_cell = 2;
     const double volume = particles_per_cell * box_.volume() / static_cast<double>(particles);
     return std::max(0.5 * largest_, root(volume, dimension));
   }
 
-  // A gap within which, at the mean density, there are certainly more neighbours than the target.
+  // Returns a gap within which, at the mean density, there are certainly more neighbours than the target.
   double max_gap(double target) const {
     const double density = static_cast<double>(references_.size()) / box_.volume();
     const double of_unit = dimension == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
@@ -283,7 +286,7 @@ class Neighborhoods {
     return std::clamp(reach - 2 * smallest_, smallest_, 4 * largest_);
   }
 
-  // The gap within which the particles of a sample have the target number of neighbours on average.
+  // Returns the gap within which the particles of a sample have the target number of neighbours on average.
   double choose_gap(double target) {
     constexpr std::size_t max_sampled = 512;
     const std::size_t stride = 1 + (references_.size() - 1) / max_sampled;
@@ -301,7 +304,8 @@ class Neighborhoods {
     return std::max(*nth, min_gap);
   }
 
-  // Whether cells return so many candidates that an outer layer is worthwhile, and the box is wide enough for it.
+  // Returns whether cells return so many candidates that an outer layer is worthwhile, and the box is wide enough for
+  // it.
   bool needs_outer_layer() const {
     constexpr double many_candidates = 400;
     const double density = static_cast<double>(references_.size()) / box_.volume();
@@ -309,27 +313,28 @@ class Neighborhoods {
            OuterLayer::times * margin_ < 0.25 * box_.lengths().minCoeff();
   }
 
-  // The maximum distance of images closer to particle i than `limit`. Other references are older, with sizes
+  // Returns the maximum distance of images closer to particle i than `limit`. Other references are older, with sizes
   // between 1 and that of i.
   double reach_of(const Reference& reference, std::size_t i, double limit) const {
     const double size = reference.size;
     return size * shape(i).circumradius() + std::max(size, 1.0) * largest_ + limit;
   }
 
-  /// A region whose particles are neighbours already: a ball around the particle's previous position.
+  /// A region whose particles are neighbours already: a ball around the previous position of the particle.
   struct Known {
-    Vector offset = Vector::Zero();  // from the present position
+    Vector offset = Vector::Zero();  // offset from the present position
     double radius = 0;
   };
-  // The particles that a body at this reference certainly had as neighbours.
+  // Returns the region whose particles a body at the reference `before` certainly had as neighbours.
   Known known_at(const Reference& before, std::size_t i) const {
     const Reference& now = references_[i];
     const double size = std::min({before.size, now.size, 1.f});
     return {before.position - now.position, size * (shape(i).inradius() + smallest_) + 2 * margin_};
   }
 
-  // Calls visit(j, shift, separation) for the images of other particles that circumspheres and capsules do not prove
-  // to be `limit` apart from particle i, and that are not known; own images once per unordered pair.
+  // Calls visit(j, shift, separation) for the images of other particles that circumspheres and capsules do not prove to
+  // be `limit` apart from particle i, and that are not in the known region. Own images are visited once per unordered
+  // pair.
   template <class Visit>
   void for_each_near(Cells& cells, const References& references, std::size_t i, double limit,
                      const Known& known, Visit&& visit) const {
@@ -347,7 +352,8 @@ class Neighborhoods {
     });
   }
 
-  // The same for the candidates of the outer layer, with a limit of two margins.
+  // Calls visit(j, shift, separation) for the candidates of the outer layer that are not proved to be `limit` apart
+  // from particle i; `limit` is two margins.
   template <class Visit>
   void for_each_in_outer_layer(std::size_t i, double limit, Visit&& visit) const {
     const Reference& mine = references_[i];
@@ -364,8 +370,8 @@ class Neighborhoods {
     return references[j].position + box_.translation(shift) - from.position;
   }
 
-  // Calls visit(pair) with the gap at the reference poses for each (j, shift, separation) that `for_each` passes on;
-  // axes are improved until gaps exceed `limit`.
+  // Calls visit(pair) with the gap at the reference poses for each (j, shift, separation) that `for_each` passes on.
+  // Axes are improved until the gaps exceed `limit`.
   template <class ForEach, class Visit>
   void visit_gaps(std::size_t i, double limit, ForEach&& for_each, Visit&& visit) const {
     const Reference& mine = references_[i];
@@ -442,12 +448,13 @@ class Neighborhoods {
     });
   }
 
-  // The cells know only the largest particle. Among particles of very different sizes most of what they return is far
-  // away, and the circumspheres tell.
+  // Returns whether two particles are proved to be more than `limit` apart. The reach of a query of the cells allows
+  // for the largest particle, so among particles of very different sizes most candidates are far away, as their
+  // circumspheres show.
   bool are_far(const Reference& one, std::size_t i, const Reference& two, std::size_t j,
                const Vector& d, double limit) const {
     if (sizes_differ_) {
-      constexpr double rounding = 1 + 1e-6;  // of the sizes
+      constexpr double rounding = 1 + 1e-6;  // sizes are rounded
       const double reach =
           rounding * (one.size * shape(i).circumradius() + two.size * shape(j).circumradius()) +
           limit;
@@ -468,13 +475,14 @@ class Neighborhoods {
     return pairs;
   }
 
-  // Particle i as a neighbour of its neighbour.
+  // Returns particle i as a neighbour of its neighbour.
   static Neighbor<B> reversed_image(std::size_t i, const Neighbor<B>& neighbor) {
     return {neighbor.reversed_image(i), reversed(neighbor.warm_start)};
   }
   static Image reversed_image(std::size_t i, const Image& image) { return image.reversed_image(i); }
 
-  // Adds i and the other to each other's lists, or removes i from that of the other; in either layer.
+  // `link` adds i and the other particle to each other's lists, and `unlink` removes i from the list of the other; both
+  // serve either layer.
   template <class Entry>
   static void link(ListPool<Entry>& lists, std::size_t i, const Entry& entry) {
     lists.add(i, entry);
@@ -492,13 +500,13 @@ class Neighborhoods {
   std::span<const Shape> shapes_;
   const TypeIndex& type_index_;
   ListPool<Neighbor<B>> lists_;
-  std::vector<CapsuleOf> capsules_;  // of each type
-  double largest_, smallest_;        // circumradius and inradius
-  bool sizes_differ_;                // the circumradii
+  std::vector<CapsuleOf> capsules_;  // capsule of each type
+  double largest_, smallest_;        // largest circumradius and smallest inradius
+  bool sizes_differ_;                // whether the circumradii differ
   References references_;
   Cells cells_;
   std::vector<std::uint32_t>
-      listed_at_;  // the last update in which each was a neighbour that stayed
+      listed_at_;  // the last update in which each particle was a neighbour that stayed
   std::uint32_t updates_ = 0;
   double margin_ = 0;
   std::unique_ptr<OuterLayer> outer_;

@@ -4,15 +4,15 @@
 #include "core/state/configuration.h"
 
 /// @file
-/// The pairs of a configuration that are close to each other.
+/// The pairs of particles of a configuration that are close to each other.
 namespace vitrel {
 
-/// Cells filled with the positions of a configuration, which must be wrapped.
+/// Returns cells filled with the positions of a configuration, which must be wrapped.
 template <int Dim>
 CellGrid<Dim> make_cells(const Configuration<Dim>& configuration);
 
-/// Calls visit(i, j, d) for every pair (i ≤ j, d from i to the image of j) whose circumcircles (circumspheres)
-/// overlap when all are scaled by `scale`, and possibly for some others; each pair once, including (i, i, ±shift).
+/// Calls visit(i, j, d) for every pair (i ≤ j, d from i to the image of j) whose circumcircles (circumspheres) overlap
+/// when all are scaled by `scale`, and possibly for some others. Each pair is visited once, including (i, i, ±shift).
 template <int Dim, class Visit>
 void for_each_pair(const Configuration<Dim>& configuration, double scale, Visit&& visit) {
   const CellGrid<Dim> cells = make_cells(configuration);

@@ -10,7 +10,7 @@ namespace vitrel {
 
 namespace {
 
-// The lower bits, 63/Dim of them, with Dim − 1 zeros before each.
+// Returns the lower bits, of which there are 63/Dim, with Dim − 1 zeros before each.
 template <int Dim>
 std::uint64_t spread(std::uint64_t bits) {
   std::uint64_t all = 0;

@@ -38,7 +38,7 @@ double Stream::uniform() {
 }
 
 std::uint64_t Stream::below(std::uint64_t n) {
-  // Reject the incomplete last run of n values, so that every value is equally likely.
+  // The incomplete last run of n values is rejected, so that every value is equally likely.
   const std::uint64_t excess = (UINT64_MAX % n + 1) % n;
   std::uint64_t word = bits();
   while (word > UINT64_MAX - excess) word = bits();

@@ -26,21 +26,21 @@ enum class Purpose : std::uint64_t {
 /// other draws and of the number of threads.
 class Stream {
  public:
-  /// The output of one evaluation of the generator.
+  /// The four words that one evaluation of the generator gives.
   using Block = std::array<std::uint64_t, 4>;
 
   Stream(std::uint64_t seed, Purpose purpose, std::uint64_t step = 0, std::uint64_t particle = 0);
 
   std::uint64_t bits();
-  /// Whole blocks of words, each as four calls of bits() give; what is left of a block already begun
-  /// is skipped.
+  /// Fills `blocks` with the words that four calls of bits() per block would give. What is left of a block already
+  /// begun is skipped.
   void fill(std::span<Block> blocks);
-  /// Uniform on [0, 1), a multiple of 2⁻⁵³.
+  /// A uniform number on [0, 1), in multiples of 2⁻⁵³.
   double uniform();
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// Uniform on 0 … n − 1, n ≥ 1, without modulo bias.
+  /// A uniform number on 0 … n − 1 for n ≥ 1, without modulo bias.
   std::uint64_t below(std::uint64_t n);
-  /// Standard normal, by Box and Muller.
+  /// A standard normal number, by the method of Box and Muller.
   double normal();
 
  private:

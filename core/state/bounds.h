@@ -10,19 +10,20 @@ struct Bounds {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool excludes_low = false, excludes_high = false;
-  const char* words = "";  ///< "be …" or "lie …", where the numbers alone do not say it
+  const char* words = "";  ///< the rule as "be …" or "lie …", if the numbers alone do not say it
 
-  /// False of what is not a number.
+  /// Returns false for NaN.
   bool contains(double value) const {
     return (excludes_low ? value > low : value >= low) &&
            (excludes_high ? value < high : value <= high);
   }
 };
 
-/// What a value that the bounds do not contain would have to be: "must be positive".
+/// Returns the requirement that a value outside the bounds violates, for example "must be positive".
 std::string requirement(const Bounds& bounds, double value);
 
-/// Far beyond what anybody needs in any units, and far within what the squares and products of a double hold.
+/// These limits lie far beyond what anybody needs in any units, yet squares and products of such values stay far within
+/// the range of double.
 namespace bounds {
 
 inline constexpr Bounds length{1e-20, 1e20};
@@ -34,7 +35,8 @@ inline constexpr Bounds time = positive, time_or_none = not_negative;
 inline constexpr Bounds at_least_one{1};
 inline constexpr Bounds share{0, 1};
 inline constexpr Bounds share_above_none{0, 1, true};
-/// In larger boxes the accuracy of contacts, a share of the box, is that of the particles.
+/// At lower packing fractions the accuracy of contacts, which is proportional to the box lengths, would be as coarse as
+/// the particles.
 inline constexpr Bounds packing_fraction{1e-15};
 
 }  // namespace bounds

@@ -84,16 +84,16 @@ struct Circumsphere {
   std::size_t particle;
 };
 
-/// Judges pairs of particles and keeps the findings.
+/// Examines pairs of particles and collects the results.
 ///
-/// Pairs far apart are rejected in double precision, with the longest box length as the unit and u = 2⁻⁵³.
-/// Wrapped centres are rounded by u. A component of the distance to the nearest image takes two of them, a
-/// box length rounded by u, and two subtractions: it is good to 5u, the distance to 9u. Squares, sums of
-/// radii and their comparison add 8u of the sum of radii. The margin 2⁻⁴⁰ (1 + a), a the longest semi-axis,
-/// is more than 2⁸ times as much.
+/// Pairs far apart are rejected in double precision, with the longest box length as the unit and u = 2⁻⁵³. Wrapped
+/// centres are rounded by u. A component of the distance to the nearest image takes two centres, a box length rounded
+/// by u, and two subtractions, so its error is at most 5u, and that of the distance 9u. Squares, sums of radii and
+/// their comparison add 8u of the sum of radii. The margin 2⁻⁴⁰ (1 + a), where a is the longest semi-axis, is more than
+/// 2⁸ times as much.
 template <int Dim>
 class Examination {
-  /// Compares component by component.
+  /// The components of a shift, as an array because arrays can be compared.
   using Boxes = std::array<std::int32_t, Dim>;
 
  public:
@@ -112,7 +112,7 @@ class Examination {
     set_smallest_gap(nearness_);
   }
 
-  /// No two centres farther apart than this have a surface distance that matters.
+  /// Centres that are farther apart than this cannot affect the result.
   double reach() const { return 3 * scaled(nearness_) + margin_; }
   const Vec<Dim>& box() const { return box_; }
 
@@ -129,7 +129,7 @@ class Examination {
     return spheres;
   }
 
-  /// All images of a pair, or of a particle and itself.
+  /// Examines all images of a pair, or of a particle with itself.
   void examine(const Circumsphere<Dim>& one, const Circumsphere<Dim>& two) {
     if (far_apart(one, two)) return;
     const auto [i, j] = std::minmax(one.particle, two.particle);
@@ -161,7 +161,7 @@ class Examination {
 
   double scaled(Real length) const { return static_cast<double>(scale_ * length); }
 
-  /// Pairs with a larger gap change nothing.
+  /// Pairs with a larger gap do not change the result.
   Real relevant_gap() const { return std::max<Real>(0, smallest_gap_); }
 
   void set_smallest_gap(Real gap) {
@@ -180,8 +180,8 @@ class Examination {
     return square > reach * reach;
   }
 
-  /// Images whose components before k of the shift are given and contained in d. Truncation may add some
-  /// that are out of reach.
+  /// Examines the images whose shift has the given components before component k, which `d` already includes.
+  /// Truncation may add some images that are out of reach.
   template <int k>
   void examine_images(std::size_t i, std::size_t j, Boxes& shift, const Point<Dim>& d, Real reach) {
     if constexpr (k == Dim) {
@@ -196,7 +196,7 @@ class Examination {
     }
   }
 
-  /// By way of double, which is much faster. Below 2¹¹ that rounds by 2⁻⁴², less than the margin.
+  /// Truncates by way of double, which is much faster. Below 2¹¹ the conversion rounds by 2⁻⁴², less than the margin.
   static int truncated(Real boxes) { return static_cast<int>(static_cast<double>(boxes)); }
 
   void examine_image(std::size_t i, std::size_t j, const Boxes& shift, const Point<Dim>& d) {
@@ -213,25 +213,25 @@ class Examination {
 
   LargeVector<Particle<Dim>> particles_;
   Point<Dim> lengths_;
-  std::map<Place, double> closest_;  // of close pairs
+  std::map<Place, double> closest_;  // smallest distances of close pairs
   Real nearness_ = 0;                // the longest semi-axis
   Real scale_ = 0;                   // one over the longest box length
   double margin_ = 0;
-  Vec<Dim> box_;  // scaled
+  Vec<Dim> box_;  // box lengths, scaled
   Real smallest_gap_ = 0;
-  double clearance_ = 0;  // the relevant gap, scaled, and the margin
+  double clearance_ = 0;  // the relevant gap, scaled, plus the margin
   std::vector<PairImage<Dim>> overlaps_;
   std::uint64_t pairs_examined_ = 0;
 };
 
-/// Periodic cells at least `reach` wide: what lies within reach of a particle is in its cell or in one
-/// next to it. They only name the candidates; images are found pair by pair.
+/// Periodic cells at least `reach` wide, so that everything within reach of a particle is in its cell or in one next to
+/// it. The cells only select candidates; images are found pair by pair.
 template <int Dim>
 class Cells {
  public:
-  /// At most `most` cells along each axis.
+  /// Makes at most `most` cells along each axis.
   Cells(const Examination<Dim>& examination, double most) : box_(examination.box()) {
-    // A little wider than needed, so that rounding cannot move a particle out of reach.
+    // Cells are a little wider than needed, so that rounding cannot move a particle out of reach.
     const double width = examination.reach() * (1 + 1e-6);
     std::size_t cells = 1;
     for (int k = 0; k < Dim; ++k) {
@@ -242,8 +242,8 @@ class Cells {
     sort(examination.circumspheres(), cells);
   }
 
-  /// Calls visit once for every pair in the same or neighbouring cells, and, in a small box, for every
-  /// particle and itself.
+  /// Calls visit once for every pair in the same or neighbouring cells and, in a small box, for every particle with
+  /// itself.
   void for_each_pair(auto&& visit) const {
     for (std::size_t s = 0; s < members_.size(); ++s) {
       const std::size_t first = own_images_ ? s : s + 1;
@@ -264,7 +264,8 @@ class Cells {
     for (const auto& sphere : spheres) members_[next[cell_of(sphere.centre)]++] = sphere;
   }
 
-  /// `index` is that of the cell's first k coordinates. Each cell once, even if there are fewer than three.
+  /// Visits each cell near `centre` once, even if there are fewer than three along an axis. `index` combines the first
+  /// k coordinates of the cell.
   template <int k, class Visit>
   void for_each_near_cell(const Vec<Dim>& centre, std::size_t index, Visit&& visit) const {
     if constexpr (k == Dim) {
@@ -290,8 +291,8 @@ class Cells {
   Vec<Dim> box_;
   std::array<int, Dim> count_{};
   bool own_images_;
-  LargeVector<Circumsphere<Dim>> members_;  // cell by cell
-  std::vector<std::size_t> begin_;          // of each cell in members_, and the end
+  LargeVector<Circumsphere<Dim>> members_;  // sorted by cell
+  std::vector<std::size_t> begin_;          // where each cell begins in members_, and the end
 };
 
 }  // namespace

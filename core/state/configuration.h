@@ -11,24 +11,24 @@
 
 namespace vitrel {
 
-/// The state of N particles in a periodic box: the form that files, Monte Carlo, event-driven dynamics
-/// and analysis share. One entry per particle in every vector; a plain value, copied at will.
+/// The state of N particles in a periodic box, in the form that files, Monte Carlo, event-driven dynamics and analysis
+/// share. Every vector has one entry per particle. A configuration is a plain value and can be copied freely.
 ///
-/// Units: kT = 1, mass 1 and a b = 1 (in three dimensions a b c = 1) for the reference species; with ℓ
-/// that unit of length, time is in √(m ℓ²/kT).
+/// Units: kT = 1, mass 1 and a b = 1 (in three dimensions a b c = 1) for the reference species. With ℓ the unit of
+/// length that follows, the unit of time is √(m ℓ²/kT).
 template <int Dim>
 struct Configuration;
 
-/// Particles i ≤ j, j seen at r_j + shift ∘ L. If i = j, shift and −shift are the same pair, and
-/// the one whose first non-zero component is positive is given.
+/// A pair of particles i ≤ j, where j is seen at r_j + shift ∘ L. If i = j, shift and −shift denote the same pair, and
+/// the one whose first non-zero component is positive is stored.
 template <int Dim>
 struct PairImage {
   std::size_t i, j;
   Shift<Dim> shift;
 };
 
-/// A soft particle in contact (edmd/soft/soft_contact.h): it moves with the centre of mass of the pair
-/// until `time`, and then on with `velocity`.
+/// A soft particle in contact (edmd/soft/soft_contact.h): it moves with the centre of mass of the pair until `time`,
+/// and afterwards with `velocity`.
 template <int Dim>
 struct Release {
   std::size_t particle, partner;
@@ -36,7 +36,7 @@ struct Release {
   Vec<Dim> velocity;
 };
 
-/// A pair of soft particles that lost energy in a contact and is still closer than the sum of its radii: its centres
+/// A pair of soft particles that lost energy in a contact and is still closer than the sum of its radii. Its centres
 /// may be as close as `distance`.
 template <int Dim>
 struct ClosePair {
@@ -44,7 +44,7 @@ struct ClosePair {
   double distance;
 };
 
-/// The part that does not depend on the representation of orientations.
+/// The part of a configuration that does not depend on the representation of orientations.
 template <int Dim>
 struct Particles {
   PeriodicBox<Dim> box;
@@ -71,7 +71,7 @@ template <>
 struct Configuration<2> : Particles<2> {
   std::vector<double> angle;  ///< unwrapped, radians
 
-  /// Makes room for n particles at rest at the origin, round with radius 1, mass 1, species 0.
+  /// Resizes to n particles. New ones are at rest at the origin and round with radius 1, mass 1 and species 0.
   void resize(std::size_t n);
   Pose2 pose(std::size_t i) const { return {position[i], angle[i]}; }
   void set_pose(std::size_t i, const Pose2& pose) {
@@ -91,31 +91,31 @@ struct Configuration<3> : Particles<3> {
     position[i] = pose.position;
     orientation[i] = pose.orientation;
   }
-  /// About the own axes (particle_shape.h).
+  /// The principal moments about the particle's own axes (particle_shape.h).
   Vec3 inertia(std::size_t i) const { return mass[i] * shape[i].inertia_per_mass(); }
 };
 
 using Configuration2 = Configuration<2>;
 using Configuration3 = Configuration<3>;
 
-/// Whether the same particles, by number, species, masses and shapes, are in both.
+/// Returns whether both configurations hold the same particles, by number, species, masses and shapes.
 template <int Dim>
 bool same_particles(const Configuration<Dim>& one, const Configuration<Dim>& two);
 
-/// Total area (volume) of the particles over that of the box.
+/// The total area (volume) of the particles divided by that of the box.
 template <int Dim>
 double packing_fraction(const Configuration<Dim>& configuration);
-/// The largest circumradius and the smallest inradius of all particles.
+/// The largest circumradius of all particles.
 template <int Dim>
 double largest_circumradius(const Configuration<Dim>& configuration);
 template <int Dim>
 double smallest_inradius(const Configuration<Dim>& configuration);
 
-/// Velocities for all sums: particles in contact count with the velocity after the contact.
+/// The velocities to use in sums over particles: those of particles in contact are the velocities after the contact.
 template <int Dim>
 std::vector<Vec<Dim>> velocities_after_contact(const Configuration<Dim>& configuration);
 
-/// Sums over all particles, with velocities after contact. Round particles are at rest in runs with smooth contacts,
+/// Sums over all particles, with velocities after contact. Round particles do not rotate in runs with smooth contacts,
 /// which cannot make them spin.
 template <int Dim>
 struct Mechanics {
@@ -125,17 +125,17 @@ struct Mechanics {
 };
 template <int Dim>
 Mechanics<Dim> mechanics(const Configuration<Dim>& configuration);
-/// Number of particles that are not round.
+/// The number of particles that are not round.
 template <int Dim>
 std::size_t rotor_count(const Configuration<Dim>& configuration);
-/// Smooth contacts do not change all rotations, rough ones do.
+/// The kind of contacts: smooth contacts do not change all rotations, rough ones do.
 enum class Contacts { smooth, rough };
-/// The number of rotations of a particle that contacts change. Rough contacts change all of them.
+/// The number of rotational degrees of freedom of a particle that contacts change. Rough contacts change all of them.
 template <class Shape>
 int rotations(const Shape& shape, Contacts contacts) {
   return contacts == Contacts::smooth ? shape.rotations() : Shape::dimension == 2 ? 1 : 3;
 }
-/// The rotations of all particles together.
+/// The sum of `rotations` over all particles.
 template <int Dim>
 std::size_t rotation_count(const Configuration<Dim>& configuration,
                            Contacts contacts = Contacts::smooth);

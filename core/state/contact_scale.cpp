@@ -23,7 +23,7 @@ double contact_scale(const Configuration<Dim>& configuration, const PairImage<Di
 
 template <int Dim>
 double shrink_to_contact(Configuration<Dim>& configuration) {
-  // Each round undoes what the last left by rounding, which grows with the aspect ratio.
+  // Each round removes the overlaps that rounding left in the round before; rounding errors grow with the aspect ratio.
   double margin = std::numeric_limits<double>::epsilon(), total = 1;
   for (auto check = exact_check(configuration); !check.clean();
        check = exact_check(configuration)) {

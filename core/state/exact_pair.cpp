@@ -21,7 +21,7 @@ struct Pair {
 template <int Dim, class Real>
 using Matrix = Eigen::Matrix<Real, Dim, Dim>;
 
-/// Semi-axes as columns: Σ = AAᵀ and h = |Aᵀn|.
+/// Returns the matrix A whose columns are the semi-axes: Σ = AAᵀ and h = |Aᵀn|.
 template <class Real>
 Matrix<2, Real> semi_axes(const EllipseAxes<Real>& e) {
   Matrix<2, Real> axes;
@@ -34,7 +34,7 @@ Matrix<3, Real> semi_axes(const EllipsoidAxes<Real>& e) {
   return e.directions * e.lengths.asDiagonal();
 }
 
-/// Unit vectors that complete n, as columns.
+/// Returns the unit vectors that complete n to an orthonormal basis, as columns.
 template <class Real>
 Point<2, Real> tangents(const Point<2, Real>& n) {
   return {-n.y(), n.x()};
@@ -48,8 +48,8 @@ Eigen::Matrix<Real, 3, 2> tangents(const Point<3, Real>& n) {
   return t;
 }
 
-/// The support function h at a unit vector n, with its gradient Σn/h and its matrix of second derivatives
-/// Σ/h − Σn(Σn)ᵀ/h³ in the directions of the tangents t.
+/// The support function h at a unit vector n, its gradient Σn/h, and its matrix of second derivatives Σ/h − Σn(Σn)ᵀ/h³,
+/// both in the directions of the tangents t.
 template <int Dim, class Real>
 struct Support {
   Real h;
@@ -66,16 +66,16 @@ struct Support {
   }
 };
 
-/// g(n) = n·d − h₁(n) − h₂(n) at a unit vector n, and the step of n along its tangents by which Newton's
-/// method would go to the maximum; where g is not concave, one of the longest length uphill.
+/// g(n) = n·d − h₁(n) − h₂(n) at a unit vector n, and the step of n along its tangents that Newton's method takes to
+/// the maximum. Where g is not concave, the step is uphill and has the largest length allowed.
 template <int Dim, class Real>
 struct Separation {
   Real gap;
   Point<Dim, Real> step;
 };
 
-/// On the sphere the second derivatives are those in space less g times the unit matrix, since all terms
-/// of g are homogeneous in n.
+/// On the sphere the second derivatives are those in space minus g times the unit matrix, since all terms of g are
+/// homogeneous in n.
 template <int Dim, class Real>
 Separation<Dim, Real> separation_along(const Pair<Dim, Real>& pair, const Point<Dim, Real>& n) {
   const auto t = tangents(n);
@@ -93,12 +93,12 @@ Separation<Dim, Real> separation_along(const Pair<Dim, Real>& pair, const Point<
   return {gap, t * turn};
 }
 
-/// The local maximum of g above n: Newton's method, halving every step that would lead down. Where
-/// g > 0 it is strictly concave on the sphere, so that there is one maximum. Ends early with any value
-/// that is `enough`.
+/// Returns the local maximum of g above n by Newton's method, which halves every step that would lead down. Where g > 0
+/// it is strictly concave on the sphere, so that there is only one maximum. Returns early with any value that is at
+/// least `enough`.
 template <int Dim, class Real>
 Real climb(const Pair<Dim, Real>& pair, Point<Dim, Real> n, Real enough) {
-  constexpr double shortest_step = 1e-10;  // g is flat there: an error of 1e-20 in relative terms
+  constexpr double shortest_step = 1e-10;  // g is flat there: a relative error of 1e-20
   constexpr int max_steps = 200;
   Separation<Dim, Real> here = separation_along(pair, n);
   for (int step = 0; step < max_steps && here.gap < enough; ++step) {
@@ -126,9 +126,9 @@ EllipsoidEta<Real> criterion(const Pair<3, Real>& pair) {
   return ellipsoid_eta<Real>(pair.one.axes, pair.two.axes, pair.d);
 }
 
-/// A direction that separates disjoint ellipses. Between its two positive roots the polynomial p(t)
-/// = t³ + G₁t² + (G₂/q)t + 1/q is negative, and (Σ₁ + tΣ₂)⁻¹d separates for every such t: take the
-/// minimum of p.
+/// Returns a direction that separates disjoint ellipses. Between its two positive roots the polynomial
+/// p(t) = t³ + G₁t² + (G₂/q)t + 1/q is negative, and (Σ₁ + tΣ₂)⁻¹d is a separating direction for every such t, for
+/// example at the minimum of p.
 template <class Real>
 Point<2, Real> separating_direction(const Pair<2, Real>& pair) {
   using std::sqrt;
@@ -136,7 +136,7 @@ Point<2, Real> separating_direction(const Pair<2, Real>& pair) {
   const auto [psi, g1, g2] = criterion(pair);
   const Real ratio = (e.a * e.b) / (f.a * f.b);
   const Real root = sqrt(std::max<Real>(0, g1 * g1 - 3 * g2 * ratio * ratio));
-  // The larger root of 3t² + 2G₁t + G₂/q, without cancellation for either sign of G₁.
+  // This is the larger root of 3t² + 2G₁t + G₂/q, without cancellation for either sign of G₁.
   const Real t = g1 < 0 ? (root - g1) / 3 : -g2 * ratio * ratio / (g1 + root);
   const Matrix<2, Real> axes1 = semi_axes(e), axes2 = semi_axes(f);
   const Matrix<2, Real> m = axes1 * axes1.transpose() + t * (axes2 * axes2.transpose());
@@ -150,7 +150,7 @@ Point<3, Real> separating_direction(const Pair<3, Real>& pair) {
   return ellipsoid_touch<Real>(pair.one.axes, pair.two.axes, pair.d).normal;
 }
 
-/// Evenly spread over the unit circle, and over the unit sphere (Fibonacci's lattice).
+/// The number of sample points, which are evenly spread over the unit circle or the unit sphere (Fibonacci's lattice).
 template <int Dim>
 constexpr int sample_count = Dim == 2 ? 64 : 512;
 
@@ -165,8 +165,9 @@ Vec3 sample_point(int k, const Vec3&) {
   return {turned.x(), turned.y(), z};
 }
 
-/// The highest of many normals of both bodies, at the images of these points of the unit circle or sphere, so that sharp
-/// tips get their share; then the maximum next to it. Ends early with any value that is `enough`.
+/// Returns the maximum of g for overlapping bodies. It evaluates g at many normals of both bodies and climbs from the
+/// highest value. The normals are those at the images of the sample points of the unit circle or sphere, so that sharp
+/// tips are sampled as well. Returns early with any value that is at least `enough`.
 template <int Dim, class Real>
 Real overlap_gap(const Pair<Dim, Real>& pair, Real enough) {
   Point<Dim, Real> best = Point<Dim, Real>::UnitX();
@@ -185,13 +186,14 @@ Real overlap_gap(const Pair<Dim, Real>& pair, Real enough) {
   return climb(pair, best, enough);
 }
 
-/// Whether double precision proves that the surfaces are more than `gap` ≥ 0 apart: at any unit vector n,
-/// n·d − h₁(n) − h₂(n) is a lower bound of their distance. Start with n along d. The normal of touching
-/// bodies obeys n ∝ (Σ₁/h₁ + Σ₂/h₂)⁻¹d, and a few iterations of that come close to the best n of others.
+/// Returns whether double precision proves that the surfaces are more than `gap` ≥ 0 apart: at any unit vector n,
+/// n·d − h₁(n) − h₂(n) is a lower bound of their distance. The search starts with n along d. The normal of touching
+/// bodies obeys n ∝ (Σ₁/h₁ + Σ₂/h₂)⁻¹d, and a few iterations of this equation come close to the best n of bodies that
+/// do not touch.
 ///
-/// The unit of length is a₁ + a₂. With u = 2⁻⁵³, d and n·d are good to 8u|d|. As |Aᵀn| changes by no more
-/// than Aᵀn does, h₁ and h₂ are good to 16u together, whatever the aspect ratio. The margin 2⁻⁴⁰ (1 + |d|)
-/// is 2⁹ times as much.
+/// The unit of length is a₁ + a₂. With u = 2⁻⁵³, the errors of d and n·d are at most 8u|d|. As |Aᵀn| changes by no more
+/// than Aᵀn does, the errors of h₁ and h₂ are at most 16u together, whatever the aspect ratio. The margin 2⁻⁴⁰ (1 +
+/// |d|) is 2⁹ times as much.
 template <int Dim, class Real>
 bool surely_apart(const Pair<Dim, Real>& pair, double gap) {
   constexpr int max_steps = 3;

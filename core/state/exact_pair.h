@@ -8,8 +8,8 @@
 #include "core/geometry/particle_shape.h"
 
 /// @file
-/// Two particles in extended arithmetic, as the exact check (check.h) judges and measures them. Instantiated for long
-/// double and DoubleDouble.
+/// The overlap and the gap of two particles in extended arithmetic, for the exact check (check.h). The templates are
+/// instantiated for long double and DoubleDouble.
 namespace vitrel::exact {
 
 template <int Dim, class Real = Extended>
@@ -23,7 +23,7 @@ struct Particle {
   bool is_round;
 };
 
-/// The body at its pose, unchanged.
+/// Returns the body at its pose; its position and semi-axes are converted without rounding.
 template <class Real = Extended>
 Particle<2, Real> particle(const Ellipse& shape, const Pose2& pose);
 template <class Real = Extended>
@@ -32,13 +32,13 @@ Particle<3, Real> particle(const Ellipsoid& shape, const Pose3& pose);
 template <class Real>
 struct Finding {
   bool overlap;
-  /// The distance of the surfaces, or minus the depth (check.h). If that is not below `enough`, any number
-  /// that is not below it either.
+  /// The distance between the surfaces, or minus the depth of the overlap (check.h). If it is at least `enough`, `gap`
+  /// may be any number that is at least `enough`.
   Real gap;
 };
 
-/// d from centre 1 to centre 2. Fast for round bodies, and for bodies that a separating axis in double
-/// precision proves to be more than `enough` apart.
+/// Examines two particles, where d points from centre 1 to centre 2. This is fast for round bodies, and for bodies that
+/// a separating axis in double precision proves to be more than `enough` apart.
 template <int Dim, class Real>
 Finding<Real> examine(const Particle<Dim, Real>& one, const Particle<Dim, Real>& two,
                       const std::type_identity_t<Point<Dim, Real>>& d,

@@ -5,17 +5,17 @@
 
 namespace vitrel {
 
-/// The unit vector w along which a body is oriented, either of two opposite ones: the axis of symmetry of
-/// a spheroid, the short one of an oblate and the long one of a prolate; of a scalene body the longest
-/// axis, which is a choice. Not for round bodies.
+/// Returns the unit vector w along which a body is oriented, with an arbitrary sign. For a spheroid it is the axis of
+/// symmetry: the short axis of an oblate and the long axis of a prolate one. For a scalene body it is the longest axis,
+/// which is a convention. The body must not be round.
 inline Vec3 figure_axis(const ParticleShape<3>& body, const Quaternion& orientation) {
   int axis = body.symmetry_axis();
   if (axis == no_axis) body.half_lengths().maxCoeff(&axis);
   return orientation * Vec3::Unit(axis);
 }
 
-/// How much particle i of one configuration and j of another are aligned: cos 2(θ_j − θ_i) in the plane, P₂ of the cosine
-/// between their figure axes in space. Not for round bodies.
+/// Returns how well particle i of one configuration and particle j of another are aligned: cos 2(θ_j − θ_i) in the
+/// plane, P₂ of the cosine between their figure axes in space. The particles must not be round.
 inline double alignment(const Configuration2& one, std::size_t i, const Configuration2& other,
                         std::size_t j) {
   return cosine_and_sine(2 * (other.angle[j] - one.angle[i])).cosine;

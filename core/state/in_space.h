@@ -4,10 +4,11 @@
 #include "core/state/configuration.h"
 
 /// @file
-/// Particles of either dimension as programs take them that know three: those of the plane lie in the plane z = 0.
+/// Particles of either dimension in the form that three-dimensional programs need: particles of the plane lie in the
+/// plane z = 0.
 namespace vitrel {
 
-/// Coordinates or numbers of boxes, in the plane with 0 for z.
+/// Returns a vector (coordinates, or numbers of boxes) in three dimensions; one of the plane gets z = 0.
 template <class Vector>
 Eigen::Matrix<typename Vector::Scalar, 3, 1> in_space(const Vector& vector) {
   Eigen::Matrix<typename Vector::Scalar, 3, 1> result;
@@ -31,7 +32,8 @@ inline const Quaternion& orientation_in_space(const Configuration3& configuratio
   return configuration.orientation[i];
 }
 
-/// Out of the plane a particle is as thick as across, as programs that draw bodies in space do not take flat ones.
+/// A particle of the plane becomes as thick as its shorter axis, since programs that draw bodies in space do not accept
+/// flat ones.
 inline Vec3 half_lengths_in_space(const ParticleShape<2>& shape) {
   const Vec2 half = shape.half_lengths();
   return {half.x(), half.y(), half.y()};

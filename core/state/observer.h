@@ -18,7 +18,7 @@ inline constexpr std::array shear_element_names = {"xy", "xz", "yz"};
 struct Tally {
   std::uint64_t collisions = 0;
   double virial = 0;                  ///< Σ J n·d over all collisions, d from centre to centre
-  ShearElements helfand_moment = {};  ///< edmd/momentum_flux.h; not of soft particles
+  ShearElements helfand_moment = {};  ///< see edmd/momentum_flux.h; not for soft particles
 };
 
 /// A synchronised, read-only view of the system at one sample time.

@@ -15,14 +15,14 @@
 namespace vitrel {
 namespace {
 
-/// exp of a normal variable: ln x has variance s² = ln(1 + (σ/⟨x⟩)²) and mean ln⟨x⟩ − s²/2.
+/// Returns exp of a normal variable: ln x has variance s² = ln(1 + (σ/⟨x⟩)²) and mean ln⟨x⟩ − s²/2.
 double lognormal(const Distribution& d, double standard_normal) {
   const double ratio = d.standard_deviation / d.mean;
   const double variance = logarithm_of_one_plus(ratio * ratio);
   return d.mean * exponential(std::sqrt(variance) * standard_normal - 0.5 * variance);
 }
 
-/// The inverse distribution function, without the minimum.
+/// The inverse distribution function of the distribution without its minimum.
 double untruncated_quantile(const Distribution& d, double u) {
   switch (d.kind) {
     case Distribution::Kind::constant:
@@ -34,8 +34,8 @@ double untruncated_quantile(const Distribution& d, double u) {
     case Distribution::Kind::uniform:
       return d.low + (d.high - d.low) * u;
     case Distribution::Kind::power_law: {
-      // With m = exponent + 1 the distribution function is linear in x^m. From the bound at which the density of ln x
-      // is greater, so that no power overflows.
+      // With m = exponent + 1 the distribution function is linear in x^m. It is inverted from the bound at which the
+      // density of ln x is greater, so that no power overflows.
       const double width = logarithm(d.high / d.low), m = d.exponent + 1;
       if (m == 0) return d.low * exponential(u * width);
       const double share = exponential_minus_one(-std::abs(m) * width);
@@ -59,7 +59,7 @@ double draw_once(const Distribution& d, Stream& stream) {
                   " practically always; lower the minimum or raise the mean");
 }
 
-/// The probability of less than the minimum.
+/// Returns the probability of a value below the minimum, by bisection.
 double share_below_minimum(const Distribution& d) {
   double below = 0, above = 1;
   while (true) {
@@ -69,7 +69,8 @@ double share_below_minimum(const Distribution& d) {
   }
 }
 
-/// Moved and stretched to the mean and standard deviation of the distribution, unless the minimum cuts it.
+/// Shifts and stretches the values to the mean and standard deviation of the distribution, unless a value would fall
+/// below the minimum or below 0.
 void fit_moments(std::vector<double>& values, const Distribution& d) {
   const auto n = static_cast<double>(values.size());
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
@@ -81,8 +82,9 @@ void fit_moments(std::vector<double>& values, const Distribution& d) {
   std::ranges::transform(values, values.begin(), fitted);
 }
 
-/// The numbers 0 … n − 1 in the order in which the k-th further distribution takes its values: by the fractions of
-/// multiples of an irrational number, so that they are paired without correlation.
+/// Returns the numbers 0 … n − 1 in the order in which the k-th further distribution takes its values. They are sorted
+/// by the fractional parts of the multiples of an irrational number, so that the values of several distributions are
+/// paired without correlation.
 std::vector<std::size_t> pairing(std::size_t n, std::size_t k) {
   static constexpr double irrational[] = {0, std::numbers::phi - 1, std::numbers::sqrt2 - 1};
   std::vector<std::size_t> order(n);
@@ -97,7 +99,7 @@ std::vector<std::size_t> pairing(std::size_t n, std::size_t k) {
   return order;
 }
 
-// ---- shapes from their distributions, drawn or listed: `value(distribution)` is called for each in turn -----------
+// ---- shapes from their distributions: make_shape calls `value(distribution)` for each distribution in turn --------
 
 double value_or_one(const std::optional<Distribution>& distribution, auto&& value) {
   return distribution ? value(*distribution) : 1;
@@ -139,7 +141,7 @@ void make_shape(const Species& species, auto&& value, Ellipsoid& shape) {
   shape = {Vec3(a, a / ratio1, a / ratio2)};
 }
 
-/// The shapes of n particles of a species, by quantiles.
+/// Returns the shapes of n particles of a species, by quantiles.
 template <int Dim>
 std::vector<ParticleShape<Dim>> listed_shapes(const Species& species, std::size_t n) {
   std::vector<ParticleShape<Dim>> shapes(n);
@@ -170,7 +172,7 @@ void require_tested_aspect(const Species& species, const auto& shape) {
                     species.name, aspect, max_aspect));
 }
 
-// Fisher and Yates.
+// This is the shuffle of Fisher and Yates.
 std::vector<std::size_t> shuffled(std::size_t count, Stream stream) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -222,7 +224,7 @@ std::vector<std::size_t> species_counts(const std::vector<Species>& species,
   std::vector<double> remainders;
   for (const Species& kind : species) {
     const double share = kind.fraction * static_cast<double>(particles);
-    // A share that is whole but for rounding is whole.
+    // A share that is whole up to rounding counts as whole.
     const double whole = std::floor(share * (1 + 1e-12));
     counts.push_back(static_cast<std::size_t>(whole));
     remainders.push_back(share - whole);
@@ -238,7 +240,7 @@ std::vector<std::size_t> species_counts(const std::vector<Species>& species,
 
 namespace {
 
-/// Everything but the box.
+/// Draws everything but the box.
 template <int Dim>
 Configuration<Dim> draw(const std::vector<Species>& species, std::size_t particles,
                         std::uint64_t seed, ShapeDraw shapes_by) {

@@ -8,16 +8,17 @@ namespace vitrel {
 /// The progress of a stage, for the front end.
 struct Progress {
   double fraction = 0;   ///< 0 … 1
-  double value = 0;      ///< the quantity that moves (simulated time, packing fraction, …)
+  double value = 0;      ///< the quantity that changes (simulated time, packing fraction, …)
   const char* quantity;  ///< its name
 };
 
-/// How a stage is stopped and reports. An empty function means: never stop, no callback.
+/// How a stage is stopped and how it reports. An empty `should_stop` never stops the stage, and other empty functions
+/// are not called.
 struct RunControl {
   std::function<bool()> should_stop;
   std::function<void(const Progress&)> on_progress;
-  /// Called when configuration and state of the stage are consistent: continuing from copies of them gives
-  /// bit-identical results.
+  /// Called when the configuration and the state of the stage are consistent, so that continuing from copies of them
+  /// gives bit-identical results.
   std::function<void()> on_resumable;
 
   bool stop_requested() const { return should_stop && should_stop(); }
@@ -30,9 +31,9 @@ struct RunControl {
 };
 
 enum class StageEnd {
-  reached,  ///< the goal of the stage was reached
+  reached,  ///< the stage reached its goal
   stalled,  ///< no further progress is possible; `reason` says why
-  stopped,  ///< stop requested; the stage can be resumed
+  stopped,  ///< a stop was requested; the stage can be resumed
 };
 
 struct StageReport {

@@ -7,15 +7,15 @@
 #include "core/state/configuration.h"
 
 /// @file
-/// The size of a particle, and the length and the time that are typical of all of them, so that options can be relative
-/// to these: medians over the particles, of an even number the lower one. A few large particles among many small ones
-/// leave both as they are.
+/// The typical length and the typical time of the particles, to which options can be relative. Both are medians over
+/// the particles (the lower of the two middle values if their number is even), so that a few large particles among many
+/// small ones do not change them.
 namespace vitrel {
 
 namespace detail {
 
-/// value(i) of the median particle, in single precision: semi-axes are rounded, but particles of size 1 have the size
-/// 1.
+/// Returns the median of value(i), rounded to single precision: semi-axes are rounded, but particles of size 1 must
+/// give exactly 1.
 double lower_median(std::size_t count, const auto& value) {
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) values.push_back(value(i));
@@ -26,13 +26,14 @@ double lower_median(std::size_t count, const auto& value) {
 
 }  // namespace detail
 
-/// The median size.
+/// The median size of a particle.
 template <int Dim>
 double typical_length(const Configuration<Dim>& c) {
   return detail::lower_median(c.size(), [&](std::size_t i) { return c.shape[i].size(); });
 }
 
-/// τ, in which a particle moves by about its own size: of √(m a b/kT), or √(m/kT) ∛(a b c), at kT = 1.
+/// The time τ in which a particle moves by about its own size: the median of √(m a b/kT), or of √(m/kT) ∛(a b c) in
+/// three dimensions, at kT = 1.
 template <int Dim>
 double typical_time(const Configuration<Dim>& c) {
   return detail::lower_median(

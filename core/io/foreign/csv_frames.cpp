@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The cells of a line. One in quotes may hold commas, and quotes that are doubled.
+/// Returns the cells of a line. A cell in quotes may hold commas, and quotes that are doubled.
 std::vector<std::string> cells_of(const std::string& line, char separator) {
   std::vector<std::string> cells(1);
   bool quoted = false;
@@ -31,12 +31,12 @@ std::vector<std::string> cells_of(const std::string& line, char separator) {
   return cells;
 }
 
-/// "x" of "x [length]".
+/// Returns "x" for "x [length]".
 std::string column_name(const std::string& cell) {
   return std::string(trimmed(std::string_view(cell).substr(0, cell.find('['))));
 }
 
-/// "length" of "x [length]".
+/// Returns "length" for "x [length]".
 std::string column_unit(const std::string& cell) {
   const std::size_t begin = cell.find('['), end = cell.find(']', begin);
   if (begin == std::string::npos || end == std::string::npos) return "";
@@ -48,7 +48,7 @@ constexpr std::array<std::string_view, 17> length_columns = {
     "a",      "b",        "c",          "box_x",       "box_y",       "box_z",
     "radius", "diameter", "diameter_x", "diameter_y",  "diameter_z"};
 
-/// The column whose values tell the frames apart, if there is one.
+/// Returns the column whose values tell the frames apart, if there is one.
 std::optional<std::size_t> frame_column(const std::vector<std::string>& columns) {
   for (const char* name : {"frame", "time"})
     if (const auto found = std::ranges::find(columns, name); found != columns.end())
@@ -109,7 +109,7 @@ class CsvFrames final : public ForeignFrames {
     with_place(lines_.place(), [&] { units_ = require_agreement(units); });
   }
 
-  /// To the next line that counts; at the end there are no cells.
+  /// Moves to the next line that is not skipped; at the end there are no cells.
   void advance() {
     std::string line;
     cells_.clear();
@@ -124,13 +124,13 @@ class CsvFrames final : public ForeignFrames {
   TextLines lines_;
   char separator_ = ',';
   FileUnits units_;
-  std::vector<std::string> cells_;  ///< of the next line
+  std::vector<std::string> cells_;  ///< cells of the next line
   std::vector<std::string> columns_;
   std::optional<std::size_t> frame_column_;
   ParticleTable table_;
 };
 
-/// The first line that counts has several names.
+/// Returns whether the first line that is not skipped has several names.
 bool is_csv(std::string_view start) {
   if (start.find('\0') != std::string_view::npos) return false;
   while (start.starts_with('#') || start.starts_with('\n') || start.starts_with('\r'))

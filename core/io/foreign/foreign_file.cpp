@@ -17,15 +17,15 @@
 namespace vitrel {
 namespace {
 
-constexpr double doubtful_step = 0.25;  // in box lengths
+constexpr double doubtful_step = 0.25;  // steps above this are doubtful, in box lengths
 
-/// Box crossings of a trajectory that does not state them: every particle is taken to have moved by the shortest way
+/// Box crossings of a trajectory that does not state them: every particle is assumed to have moved by the shortest way
 /// from frame to frame, which is right if no step is longer than half a box length.
 template <int Dim>
 class NearestImages {
  public:
-  /// Sets the images of the next frame, those of the first to 0. Where velocities are stored and times known, a
-  /// particle that kept its velocity flew straight: UserError if it went to another image than the nearest.
+  /// Sets the images of the next frame; those of the first are 0. Where velocities are stored and times are known, a
+  /// particle that kept its velocity flew straight: throws UserError if it flew to another image than the nearest.
   void set(Configuration<Dim>& next, bool knows_flight) {
     double longest = 0;
     for (std::size_t i = 0; i < next.size(); ++i) {
@@ -47,7 +47,7 @@ class NearestImages {
     ++frames_;
   }
 
-  /// A sentence on the longest step.
+  /// Returns a sentence on the longest step.
   std::string remark() const {
     std::string text = fmt::format(
         "those of the nearest images (unwrap = \"nearest\"); the longest step is "
@@ -59,13 +59,13 @@ class NearestImages {
           doubtful_step);
     return text;
   }
-  /// The frames, in ascending order, to which some particle went so far that it may have gone another way.
+  /// The frames, in ascending order, to which some particle moved so far that it may have gone another way.
   const std::vector<std::size_t>& doubtful_frames() const { return doubtful_; }
 
  private:
   void compare_with_flight(const Configuration<Dim>& next, std::size_t i) const {
     const Vec<Dim>& velocity = next.velocity[i];
-    constexpr double rounding = 1e-6;  // of single precision
+    constexpr double rounding = 1e-6;  // of numbers in single precision
     if ((velocity - last_->velocity[i]).cwiseAbs().maxCoeff() >
         rounding * velocity.cwiseAbs().maxCoeff())
       return;
@@ -79,7 +79,7 @@ class NearestImages {
   }
 
   struct Step {
-    double box_lengths = 0;  ///< along one direction
+    double box_lengths = 0;  ///< length of the step along one direction
     std::size_t particle = 0, frame = 0;
     int direction = 0;
   };
@@ -113,21 +113,21 @@ class TemporaryFile {
   std::string name_;
 };
 
-/// A file that vitrel wrote.
+/// Returns whether vitrel wrote the file.
 bool is_own(const h5::Group& root) {
   constexpr const char* creator = "h5md/creator";
   return root.has_group(creator) && root.group(creator).has_attribute("name") &&
          root.group(creator).text_attribute("name") == "vitrel";
 }
 
-/// The unit of length of the results in the place of that of the file.
+/// Replaces the unit of length of the file by that of the results.
 void rescale(ForeignFrame& frame, double unit) {
   if (frame.box) *frame.box /= unit;
   for (auto* vectors : {&frame.position, &frame.unwrapped, &frame.half_lengths, &frame.velocity})
     for (Vec3& vector : *vectors) vector /= unit;
 }
 
-/// What a frame states, in words.
+/// Returns the names of what a frame states.
 std::vector<std::string> parts_of(const ForeignFrame& frame) {
   const std::pair<bool, const char*> parts[] = {
       {!frame.position.empty(), "positions"},
@@ -149,14 +149,14 @@ std::vector<std::string> parts_of(const ForeignFrame& frame) {
   return texts;
 }
 
-/// All frames in vitrel's own form.
+/// Converts all frames to vitrel's own form.
 template <int Dim>
 class Conversion {
  public:
   Conversion(const ForeignFormat& format, const KnownSystem& known, const fs::path& copy)
       : format_(format), known_(known), copy_(copy) {}
 
-  /// UserError.
+  /// Adds a frame. Throws UserError.
   void add(ForeignFrame frame) {
     if (number_ == 0) require_sizes(frame);
     if (Dim == 2 && put_longer_axis_first(frame)) is_turned_ = true;
@@ -232,7 +232,7 @@ class Conversion {
           format_.words.sizes, fmt::join(missing, ", ")));
   }
 
-  /// What another frame does not state, nothing stands in for.
+  /// Throws UserError if the frame does not state what frame 0 states: nothing stands in for what is missing.
   void require_parts_of_first(const ForeignFrame& frame) const {
     const Texts parts = parts_of(frame), first = parts_of(first_frame_);
     if (parts != first)
@@ -342,7 +342,7 @@ class RescaledFrames {
   double length_unit_;
 };
 
-/// Frame 0, and those that follow.
+/// Frame 0, and the frames that follow.
 struct OpenFrames {
   const ForeignFormat& format;
   RescaledFrames frames;
@@ -384,7 +384,7 @@ ImportedFile convert(const fs::path& path, OpenFrames& open, const KnownSystem& 
           std::move(units)};
 }
 
-/// HDF5 that vitrel wrote.
+/// Returns the open file if it is an HDF5 file that vitrel wrote.
 std::optional<h5::File> own_file(const fs::path& path, const ImportOptions& options) {
   if (&format_of(path, options) != &h5md_format) return std::nullopt;
   h5::File file = h5::File::open(path, h5::Access::read);

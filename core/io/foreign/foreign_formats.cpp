@@ -17,7 +17,7 @@ namespace {
 constexpr std::array formats = {&h5md_format,        &gsd_format,         &xyz_format,
                                 &lammps_dump_format, &lammps_data_format, &csv_format};
 
-/// The first bytes.
+/// Returns the first bytes of the file.
 std::string start_of(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream)

@@ -56,14 +56,14 @@ const std::vector<Vec3>& places_of(const ForeignFrame& frame) {
   return frame.position.empty() ? frame.unwrapped : frame.position;
 }
 
-/// How far the heights of particles are apart.
+/// Returns how far the heights of the particles are apart.
 double height_range(const std::vector<Vec3>& positions) {
   const auto height = [](const Vec3& position) { return position[2]; };
   const auto [lowest, highest] = std::ranges::minmax(positions, {}, height);
   return highest[2] - lowest[2];
 }
 
-/// How far they may be in the plane.
+/// Returns how far apart the heights of particles in the plane may be.
 double flat_range(const ForeignFrame& frame, const KnownSystem& known) {
   const std::optional<Vec3>& box = frame.box ? frame.box : known.box;
   return tolerance::flat * (box ? box->x() : 1);
@@ -78,7 +78,8 @@ double longest_half_length(const ForeignFrame& frame, const KnownSystem& known) 
   return longest;
 }
 
-/// The names of the frame's species in the order of their numbers: that in which they are known, then the alphabet's.
+/// Returns the names of the frame's species in the order of their numbers: first the known species in their order, then
+/// the others in alphabetical order.
 std::vector<std::string> species_names(const ForeignFrame& frame, const KnownSystem& known) {
   std::vector<std::string> known_names, names;
   for (const KnownSpecies& species : known.species) known_names.push_back(species.name);
@@ -150,12 +151,12 @@ void set_particles(Configuration<Dim>& configuration, const ForeignFrame& frame,
   }
 }
 
-/// The whole boxes between a position and its unwrapped one.
+/// Returns the whole boxes between a position and its unwrapped position.
 template <int Dim>
 Shift<Dim> boxes_between(const PeriodicBox<Dim>& box, const Vec<Dim>& wrapped,
                          const Vec<Dim>& unwrapped, std::size_t i) {
   const Vec<Dim> boxes = (unwrapped - wrapped).cwiseQuotient(box.lengths());
-  constexpr double rounding = 1e-6;  // of numbers in single precision
+  constexpr double rounding = 1e-6;  // rounding of numbers in single precision
   for (int k = 0; k < Dim; ++k)
     if (!(std::abs(boxes[k]) <= max_box_crossings &&
           std::abs(boxes[k] - std::round(boxes[k])) < rounding))

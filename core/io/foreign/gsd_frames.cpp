@@ -23,7 +23,7 @@
 namespace vitrel {
 namespace {
 
-/// Bytes of a number of this type; 0 if there is no such type.
+/// Returns the number of bytes of a number of this type; 0 if there is no such type.
 std::uint64_t width_of(std::uint8_t type) {
   constexpr std::array<std::uint64_t, 11> widths = {0, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8};
   return type < widths.size() ? widths[type] : type == 11 ? 1 : 0;
@@ -53,13 +53,13 @@ std::vector<double> numbers(std::uint8_t type, const std::vector<std::byte>& byt
   return values;
 }
 
-/// The text before the first zero byte.
+/// Returns the text before the first zero byte.
 std::string text_of(const char* bytes, std::size_t most) {
   return {bytes, std::find(bytes, bytes + most, '\0')};
 }
 
-/// Reads the named arrays ("chunks") of a GSD file, file layers 1 and 2, of any schema. FileError, also for sizes and
-/// places that do not fit into the file.
+/// Reads the named arrays ("chunks") of a GSD file, file layers 1 and 2, of any schema. Throws FileError, also for
+/// sizes and places that do not fit into the file.
 class GsdReader {
  public:
   explicit GsdReader(const std::filesystem::path& path)
@@ -89,22 +89,22 @@ class GsdReader {
     std::uint32_t columns = 0;
     std::vector<double> values;  ///< row by row
   };
-  /// The chunk of the frame, or else of the first; without rows if neither has it.
+  /// Returns the chunk of the frame, or else that of the first frame; without rows if neither has it.
   GsdReader::Chunk read(const std::string& name, std::uint64_t frame) {
     const gsd::Entry* entry = find(name, frame);
     if (!entry) return {};
     return {entry->rows, entry->columns, numbers(entry->type, bytes_of(*entry))};
   }
-  /// Whether a frame after the first has the chunk.
+  /// Returns whether a frame after the first has the chunk.
   bool is_in_later_frames(const std::string& name) const {
     const auto after_first = index_.upper_bound({name, 0});
     return after_first != index_.end() && after_first->first.first == name;
   }
-  /// Whether any has.
+  /// Returns whether any frame has the chunk.
   bool has(const std::string& name) const { return find(name, 0) || is_in_later_frames(name); }
   /// The names of all chunks.
   const std::vector<std::string>& names() const { return names_; }
-  /// The rows of a chunk of texts.
+  /// Returns the rows of a chunk of texts.
   std::vector<std::string> read_texts(const std::string& name, std::uint64_t frame) {
     const gsd::Entry* entry = find(name, frame);
     if (!entry) return {};
@@ -126,7 +126,7 @@ class GsdReader {
     stream_.read(static_cast<char*>(out), static_cast<std::streamsize>(count));
     if (!stream_) fail("cannot be read");
   }
-  /// Each in a place of its own, or one behind the other, up to an empty one.
+  /// Reads names of fixed width, or names one behind the other, up to an empty one.
   void read_names(std::uint64_t location, std::uint64_t bytes, bool fixed_width) {
     std::string block(bytes, '\0');
     read_bytes(location, bytes, block.data());
@@ -138,7 +138,7 @@ class GsdReader {
       k += fixed_width ? gsd::names_unit : name.size() + 1;
     }
   }
-  /// Up to an entry without a place.
+  /// Reads the index up to an entry without a place.
   void read_index(std::uint64_t location, std::uint64_t entries) {
     if (entries > size_ / sizeof(gsd::Entry)) fail("is damaged: its index does not fit into it");
     std::vector<gsd::Entry> index(entries);
@@ -176,7 +176,7 @@ class GsdReader {
   std::map<std::pair<std::string, std::uint64_t>, gsd::Entry> index_;
 };
 
-/// The name of the species that a type "A#2" is a part of, in files of earlier versions of vitrel.
+/// Returns the name of the species that a type "A#2" is a part of, in files of earlier versions of vitrel.
 std::string species_of(const std::string& type) {
   const std::size_t mark = type.rfind('#');
   const bool is_part = mark != std::string::npos && mark + 1 < type.size() &&
@@ -252,7 +252,7 @@ class GsdFrames final : public ForeignFrames {
     return value;
   }
 
-  /// A row per particle; empty if it is not there.
+  /// Returns a row per particle; empty if the chunk is not there.
   std::vector<double> rows(const std::string& name, std::uint32_t columns) {
     GsdReader::Chunk chunk = file_.read(name, number_);
     if (chunk.rows == 0) return {};
@@ -295,7 +295,7 @@ class GsdFrames final : public ForeignFrames {
 
   void set_places(ForeignFrame& frame) {
     frame.position = vectors("particles/position");
-    // What the schema supplies for so many particles then fits into the memory, too.
+    // This also ensures that what the schema supplies for so many particles fits into the memory.
     if (frame.position.size() != particles_)
       fail("particles/position should have a row for each of the particles/N particles");
     frame.orientation = quaternions("particles/orientation");
@@ -306,8 +306,8 @@ class GsdFrames final : public ForeignFrames {
     set_images(frame);
   }
 
-  /// Many programs write images into the first frame only, or not at all: those of later frames are then unknown, and
-  /// not the same.
+  /// Many programs write images into the first frame only, or not at all. The images of later frames are then unknown,
+  /// rather than the same.
   void set_images(ForeignFrame& frame) {
     if (file_.frames() > 1 && !file_.is_in_later_frames("particles/image")) return;
     for (const Vec3& image : vectors("particles/image")) {
@@ -352,7 +352,7 @@ class GsdFrames final : public ForeignFrames {
       frame.skipped.insert("particles/diameter, as the shapes say more");
   }
 
-  /// The semi-axes of every type that has a shape; empty if the file does not have any.
+  /// Returns the semi-axes of every type that has a shape; empty if the file does not have any.
   std::vector<std::optional<Vec3>> shapes_of(std::size_t types) {
     const std::vector<std::string> texts = file_.read_texts("particles/type_shapes", number_);
     if (texts.empty() || texts.front().empty()) return {};
@@ -378,8 +378,8 @@ class GsdFrames final : public ForeignFrames {
                         : Vec3::Constant(0.5 * length("diameter"));
   }
 
-  /// The angular momentum L is stored as 2 q (0, L), L and the moments about the own axes. Where a moment is 0 the
-  /// rotation is not modelled; of spheroids written by vitrel it is then about the axis, ω = L/I⊥.
+  /// The angular momentum L is stored as 2 q (0, L); L and the moments are along the particle's own axes. A moment of 0
+  /// means that the rotation is not modelled. Spheroids written by vitrel have it about their axis, where ω = L/I⊥.
   void set_angular_velocities(ForeignFrame& frame) {
     std::vector<Quaternion> momenta = quaternions("particles/angmom");
     const bool is_default = momenta.empty() && file_.has("particles/angmom");

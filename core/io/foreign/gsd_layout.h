@@ -5,14 +5,14 @@
 #include <cstdint>
 
 /// @file
-/// The file layer of GSD (https://gsd.readthedocs.io/en/stable/file-layer.html), as in memory: a header, and an index
-/// with an entry per named array ("chunk") and frame.
+/// The file layer of GSD (https://gsd.readthedocs.io/en/stable/file-layer.html) as it is in memory: a header, and an
+/// index with an entry per named array ("chunk") and frame.
 namespace vitrel::gsd {
 
 static_assert(std::endian::native == std::endian::little, "GSD files are little-endian");
 
 inline constexpr std::uint64_t magic = 0x65DF65DF65DF65DF;
-/// Bytes in which the block of names is counted; in layer 1 each name has so many.
+/// The block of names is counted in units of this many bytes; in layer 1 each name has so many.
 inline constexpr std::uint64_t names_unit = 64;
 
 struct Header {

@@ -16,7 +16,8 @@
 namespace vitrel {
 namespace {
 
-/// What belongs to the particles: the same in all frames, as a dataset, or a group with the datasets step, time, value.
+/// An element of the particles: a dataset if it is the same in all frames, or else a group with the datasets step, time
+/// and value.
 class Element {
  public:
   Element(const h5::Group& particles, const std::string& name)
@@ -34,7 +35,7 @@ class Element {
   }
 
   bool is_fixed() const { return is_fixed_; }
-  /// Without steps of its own, an element has those of the positions, if it has as many frames.
+  /// Gives an element without steps of its own those of the positions, if it has as many frames.
   void take_steps(const Element& position) {
     if (is_fixed_ || !steps_.empty()) return;
     if (value_.shape()[0] != position.steps_.size())
@@ -49,17 +50,17 @@ class Element {
   const std::string& time_unit() const { return time_unit_; }
   std::vector<std::string> labels() const { return value_.enumeration(); }
 
-  /// Without the direction of frames.
+  /// Returns the shape without the direction of frames.
   h5::Shape shape() const {
     h5::Shape shape = value_.shape();
     if (!is_fixed_) shape.erase(shape.begin());
     return shape;
   }
 
-  /// At this step.
+  /// Returns the values at this step.
   std::vector<double> values(double step) const {
     if (is_fixed_) return value_.read<double>();
-    // Frames may repeat, so the one at the same place comes first.
+    // Steps may repeat, so the frame after the last one read is tried first.
     const auto here = last_ < steps_.size() && steps_[last_] == step
                           ? steps_.begin() + static_cast<std::ptrdiff_t>(last_)
                           : std::ranges::find(steps_, step);
@@ -77,7 +78,7 @@ class Element {
     return values.has_attribute("unit") ? values.text_attribute("unit") : std::string();
   }
 
-  /// One number per frame, or the increment.
+  /// Expands steps or times to one number per frame; the file may state only the increment.
   std::vector<double> axis(const h5::Dataset& values) const {
     std::vector<double> numbers = values.read<double>();
     if (!values.shape().empty()) return numbers;
@@ -184,7 +185,7 @@ class H5mdFrames final : public ForeignFrames {
     units_ = require_agreement(units);
   }
 
-  /// From the attributes of the box, or from a flat shape.
+  /// Sets the dimension from the attributes of the box, or from a flat shape.
   void set_dimension() {
     if (particles_.has_group("box")) {
       const h5::Group box = particles_.group("box");
@@ -220,7 +221,7 @@ class H5mdFrames final : public ForeignFrames {
     return shape[1] == 2 || (shape[1] == 3 && axes.size() > 2 && axes[2] == 0);
   }
 
-  /// Rows of `least` to `most` numbers for each particle.
+  /// Returns rows of `least` to `most` numbers for each particle.
   std::vector<std::vector<double>> rows(const std::string& name, std::size_t least,
                                         std::size_t most) const {
     const Element* const element = find(name);
@@ -290,7 +291,7 @@ class H5mdFrames final : public ForeignFrames {
     note_skipped(frame);
   }
 
-  /// By ascending id, so that every particle keeps its place.
+  /// Sorts particles by ascending id, so that every particle keeps its place.
   void set_order() {
     order_.resize(position_.shape()[0]);
     std::iota(order_.begin(), order_.end(), std::size_t{0});
@@ -320,7 +321,7 @@ class H5mdFrames final : public ForeignFrames {
     if (d == 2) frame.dimension = 2;
   }
 
-  /// By their labels, or by their numbers.
+  /// Names species by their labels, or by their numbers.
   void set_species(ForeignFrame& frame) const {
     const Element* const species = find("species");
     if (!species) return;
@@ -351,13 +352,13 @@ class H5mdFrames final : public ForeignFrames {
   FileUnits units_;
   std::size_t frame_ = 0;
   double step_ = 0;
-  std::vector<std::size_t> order_;  ///< of the particles in the file
+  std::vector<std::size_t> order_;  ///< order of the particles in the file
 };
 
-/// By its first 4096 bytes: HDF5 leaves 0, 512, 1024 … bytes of them to others.
+/// Returns whether a file is HDF5, from its first 4096 bytes: HDF5 leaves the first 0, 512, 1024 … bytes to others.
 bool is_hdf5(std::string_view start) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  const auto& record = CommitRecord().magic;  // of a file of vitrel, however short
+  const auto& record = CommitRecord().magic;  // begins every file of vitrel, however short
   if (start.starts_with(signature) || start.starts_with({record.data(), record.size()}))
     return true;
   for (std::size_t at = 512; at < start.size(); at *= 2)

@@ -47,7 +47,7 @@ const std::map<std::string, std::string> table_names = {{"id", "id"},
                                                         {"omegax", "omega_x"},
                                                         {"omegay", "omega_y"},
                                                         {"omegaz", "omega_z"}};
-/// In fractions of the box.
+/// Columns in fractions of the box.
 const std::map<std::string, std::string> scaled_names = {
     {"xs", "x"},           {"ys", "y"}, {"zs", "z"}, {"xsu", "unwrapped_x"}, {"ysu", "unwrapped_y"},
     {"zsu", "unwrapped_z"}};
@@ -182,7 +182,7 @@ class DumpFrames final : public ForeignFrames, LammpsFile {
     return true;
   }
 
-  /// Names of the table; `scaled`: whether positions and unwrapped positions are fractions of the box.
+  /// Returns the names of the table. `scaled` says whether positions and unwrapped positions are fractions of the box.
   static std::vector<std::string> columns(const std::vector<std::string>& names,
                                           std::array<bool, 2>& scaled) {
     const auto has = [&](const std::string& name) {
@@ -215,7 +215,7 @@ class DumpFrames final : public ForeignFrames, LammpsFile {
   std::string unit_style_;
 };
 
-/// The columns of "Atoms # style" after which images may come.
+/// The columns of "Atoms # style"; images may follow them.
 const std::map<std::string, std::vector<std::string>> style_columns = {
     {"atomic", {"id", "type", "x", "y", "z"}},
     {"charge", {"id", "type", "q", "x", "y", "z"}},
@@ -250,10 +250,10 @@ class DataFrames final : public ForeignFrames, LammpsFile {
   }
 
  private:
-  using Rows = std::map<double, std::vector<double>>;  ///< by id, or by type
+  using Rows = std::map<double, std::vector<double>>;  ///< rows by id, or by type
 
-  /// The next line of a section, or of the header, without its comment; false at the name of a section, which is kept, and
-  /// at the end of the file.
+  /// Reads the next line of a section, or of the header, without its comment. Returns false at the name of a section,
+  /// which is kept, and at the end of the file.
   bool next_row(std::string& row) {
     std::string line;
     section_.clear();
@@ -267,7 +267,7 @@ class DataFrames final : public ForeignFrames, LammpsFile {
     return false;
   }
 
-  /// Up to the name of the first section.
+  /// Reads the header up to the name of the first section.
   void read_header() {
     std::string row;
     lines_.next(row);  // a title
@@ -289,7 +289,7 @@ class DataFrames final : public ForeignFrames, LammpsFile {
     if (section_.empty()) fail("the file ends before the section Atoms");
   }
 
-  /// Rows of numbers up to the next section.
+  /// Reads rows of numbers up to the next section.
   void read_section(const std::string& name) {
     Rows& rows = sections_[name];
     std::string row;
@@ -315,7 +315,7 @@ class DataFrames final : public ForeignFrames, LammpsFile {
     return style;
   }
 
-  /// The row of an atom in another section, which must have so many numbers.
+  /// Returns the row of an atom in another section, which must have at least `least` numbers.
   const std::vector<double>* row(const char* section, double id, std::size_t least) const {
     const auto rows = sections_.find(section);
     if (rows == sections_.end()) return nullptr;
@@ -383,7 +383,8 @@ class DataFrames final : public ForeignFrames, LammpsFile {
     frame.mass.push_back(density * volume(axes));
   }
 
-  /// A line of Velocities ends with ω for spheres and with the angular momentum for ellipsoids, both in the axes of space.
+  /// Adds the velocities of an atom. A line of Velocities ends with ω for spheres and with the angular momentum for
+  /// ellipsoids, both in the axes of space.
   void add_velocity(ForeignFrame& frame, double id, const std::string& style) const {
     const bool rotates = style == "sphere" || style == "ellipsoid";
     const std::vector<double>* const numbers = row("Velocities", id, rotates ? 7 : 4);
@@ -403,13 +404,13 @@ class DataFrames final : public ForeignFrames, LammpsFile {
   }
 
   bool is_read_ = false;
-  std::string section_;  ///< the line with the name of the next one
+  std::string section_;  ///< the line with the name of the next section
   std::size_t particles_ = 0;
   Bounds bounds_;
   std::map<std::string, Rows> sections_;
 };
 
-/// A line near the beginning is a number of atoms.
+/// Returns whether a line near the beginning is a number of atoms.
 bool is_data(std::string_view start) {
   if (start.find('\0') != std::string_view::npos) return false;
   while (!start.empty()) {

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* species_column = "species";
 constexpr std::array<const char*, 3> directions = {"x", "y", "z"};
 
-/// Columns of which all or none must be there.
+/// Groups of columns of which all or none must be there.
 const std::vector<std::vector<std::string>> groups = {{"frame"},
                                                       {"step"},
                                                       {"time"},
@@ -38,7 +38,7 @@ const std::vector<std::vector<std::string>> groups = {{"frame"},
                                                       {"a", "b"},
                                                       {"qw", "qx", "qy", "qz"},
                                                       {"omega_x", "omega_y", "omega_z"}};
-/// Third components, with the columns that they belong to.
+/// Third components, with the first component that each belongs to.
 const std::map<std::string, std::string> third_of = {
     {"box_z", "box_x"}, {"z", "x"}, {"unwrapped_z", "unwrapped_x"}, {"image_z", "image_x"},
     {"vz", "vx"},       {"c", "a"}, {"diameter_z", "diameter_x"}};
@@ -57,7 +57,7 @@ double number(std::string_view cell, const std::string& column, const std::strin
   return *value;
 }
 
-/// Columns that the user gives another name.
+/// Renames columns to which the user gives another name.
 void rename(std::vector<std::string>& columns, const std::vector<ImportOptions::Column>& renamed,
             const std::string& place) {
   for (const auto& [file, meaning] : renamed) {

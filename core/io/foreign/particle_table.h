@@ -12,8 +12,8 @@
 
 namespace vitrel {
 
-/// Rows of named columns, a particle each, as CSV and extended XYZ have them. The columns that count, all optional but
-/// the positions:
+/// Rows of named columns, one row per particle, as CSV and extended XYZ have them. These columns are read, all of them
+/// optional but the positions:
 ///
 ///     frame, step, time, box_x, box_y, box_z     the same in all rows
 ///     id                                         the order of the particles
@@ -24,37 +24,38 @@ namespace vitrel {
 ///     diameter, or diameter_x, …                 whole axes
 ///     mass; vx, vy, vz; omega, or omega_x, …
 ///
-/// Others are skipped. A table without the column z, or with angles, is two-dimensional.
+/// Other columns are skipped. A table without the column z, or with angles, is two-dimensional.
 class ParticleTable {
  public:
-  /// `renamed`: columns that mean one of those above. FileError, for `place`, if a column comes twice, or one of several
-  /// that belong together, or that is renamed, is missing.
+  /// `renamed` lists columns that mean one of those above. Throws FileError, for `place`, if a column comes twice, or
+  /// if a column is missing that is renamed or belongs together with others.
   ParticleTable(std::vector<std::string> columns, const std::string& place,
                 const std::vector<ImportOptions::Column>& renamed = {});
 
   bool has(const std::string& column) const { return numbers_.contains(column); }
-  /// One cell per column. FileError, for `place` ("file:line"), if their number is another one or one is no number.
+  /// Adds a row with one cell per column. Throws FileError, for `place` ("file:line"), if the number of cells is wrong
+  /// or a cell that should be a number is none.
   void add(const std::vector<std::string_view>& cells, const std::string& place);
   std::size_t rows() const { return rows_; }
   /// Removes all rows.
   void clear();
 
-  /// All rows as one frame. FileError, for `place`, if an id comes twice.
+  /// Returns all rows as one frame. Throws FileError, for `place`, if an id comes twice.
   ForeignFrame frame(const std::string& place) const;
 
  private:
   using Order = std::vector<std::size_t>;
 
-  /// In this order; empty if there is no such column.
+  /// Returns a column in this order; empty if there is no such column.
   std::vector<double> numbers(const std::string& column, const Order& order) const;
-  /// Vectors from three columns "x", "y", "z" behind a prefix; the third may be missing and is then 0.
+  /// Returns vectors from three columns "x", "y", "z" behind a prefix; the third may be missing and is then 0.
   std::vector<Vec3> vectors(const std::string& prefix, const std::array<const char*, 3>& columns,
                             const Order& order) const;
   std::vector<Vec3> half_lengths(const Order& order) const;
   std::optional<double> single(const std::string& column) const;
   Order by_id(const std::string& place) const;
 
-  std::vector<std::string> columns_;  ///< "" for those that are skipped
+  std::vector<std::string> columns_;  ///< "" for columns that are skipped
   std::set<std::string> skipped_;
   std::map<std::string, std::vector<double>> numbers_;
   std::vector<std::string> species_;

@@ -29,7 +29,7 @@ std::vector<std::string_view> words_of(std::string_view line, const char* separa
 }
 
 std::optional<double> number_in(std::string_view text) {
-  // from_chars takes no sign in front of a positive number.
+  // from_chars does not accept a sign in front of a positive number.
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
   const char* const end = text.data() + text.size();

@@ -41,7 +41,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Where the value that begins at `begin` ends: behind its quotes or brackets, or at the next blank.
+/// Returns where the value that begins at `begin` ends: behind its quotes or brackets, or at the next blank.
 std::size_t end_of_value(const std::string& line, std::size_t begin) {
   if (begin < line.size() && line[begin] == '"')
     return std::min(line.find('"', begin + 1), line.size() - 1) + 1;
@@ -53,8 +53,8 @@ std::size_t end_of_value(const std::string& line, std::size_t begin) {
   return line.size();
 }
 
-/// key=value, key="several words" and key=[[lists], [of, lists]], with blanks around = or none; words without = are
-/// skipped.
+/// Reads key=value, key="several words" and key=[[lists], [of, lists]], with or without blanks around =. Words
+/// without = are skipped.
 Keys keys_of(const std::string& line) {
   Keys keys;
   const auto skip_blanks = [&](std::size_t k) {
@@ -105,7 +105,7 @@ std::vector<double> numbers(const std::string& text, std::size_t count, const st
   return values;
 }
 
-/// The names of all columns. A property that is not known, or has another number of them, keeps its name.
+/// Returns the names of all columns. A property that is not known, or has another number of columns, keeps its name.
 std::vector<std::string> columns(const std::string& properties, const std::string& place) {
   const std::vector<std::string_view> parts = words_of(properties, ":");
   if (parts.size() % 3 != 0)
@@ -128,7 +128,7 @@ std::vector<std::string> columns(const std::string& properties, const std::strin
   return names;
 }
 
-/// The columns of plain XYZ, which does not name them: all programs agree on the first four.
+/// Returns the columns of plain XYZ, which does not name them; all programs agree on the first four.
 std::vector<std::string> plain_columns(std::size_t count) {
   std::vector<std::string> names = {"species", "x", "y", "z"};
   while (names.size() < count) names.push_back(fmt::format("column {}", names.size() + 1));
@@ -185,14 +185,14 @@ class XyzFrames final : public ForeignFrames {
   std::vector<ImportOptions::Column> renamed_;
 };
 
-/// Whether a word of `pbc` says that the box is periodic; nothing if it says neither.
+/// Returns whether a word of `pbc` says that the box is periodic; nothing if the word says neither.
 std::optional<bool> periodicity(std::string_view word) {
   if (word == "t" || word == "true" || word == "1") return true;
   if (word == "f" || word == "false" || word == "0") return false;
   return std::nullopt;
 }
 
-/// The dimension that follows from pbc, if one does.
+/// Returns the dimension that follows from pbc, if one does.
 std::optional<int> dimension_of_pbc(const Keys& keys, const std::string& place) {
   const auto pbc = keys.find("pbc");
   if (pbc == keys.end()) return std::nullopt;
@@ -225,7 +225,7 @@ void set_box(ForeignFrame& frame, const Keys& keys, const std::string& place) {
 
 void XyzFrames::complete(ForeignFrame& frame, const Keys& keys, const std::string& place) {
   set_box(frame, keys, place);
-  // All programs write three coordinates.
+  // All programs write three coordinates, so the table does not tell the dimension.
   if (const auto dimension = dimension_of_pbc(keys, place)) frame.dimension = dimension;
   if (!keys.contains("pbc")) frame.assumed["boundaries"] = "periodic";
   if (const auto time = keys.find("time"); time != keys.end())
@@ -235,7 +235,7 @@ void XyzFrames::complete(ForeignFrame& frame, const Keys& keys, const std::strin
       frame.step = parsed<std::int64_t>(step->second, "Step", place);
 }
 
-/// The first line is a number.
+/// Returns whether the first line is a number.
 bool is_xyz(std::string_view start) {
   const std::vector<std::string_view> words = words_of(start.substr(0, start.find('\n')), " \t\r");
   return words.size() == 1 &&
