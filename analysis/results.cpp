@@ -29,12 +29,12 @@ std::string csv_header(const Table& table) {
   return line;
 }
 
-/// An unknown number has no sign.
+/// Formats a number; an unknown one has no sign.
 std::string number(double value) {
   return std::isnan(value) ? "nan" : fmt::format("{:.17g}", value);
 }
 
-/// Quoted if need be.
+/// Returns a text for CSV, in quotes if need be.
 std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -76,8 +76,7 @@ void write_numbers(h5::Group& group, const std::string& name, const std::string&
   group.create_array<double>(name, {values.size()}, values).set_attribute("unit", unit);
 }
 
-// HDF5 lists members alphabetically; their own order is kept as a text attribute, names joined by
-// commas.
+// HDF5 lists members alphabetically, so a text attribute keeps their own order, as names joined by commas.
 void write_table(h5::Group& root, const Table& table) {
   h5::Group group = root.create_group(table.name);
   std::vector<std::string> names;
@@ -133,7 +132,7 @@ void write_provenance(h5::Group& root, const Results& results) {
   group.set_attribute("entries", joined(names));
 }
 
-/// The names of today for those of files that earlier versions wrote.
+/// Replaces names in files of earlier versions by those of today.
 void rename_former(Table& table) {
   const auto rename = [](std::string& name) {
     if (name == "compressibility") name = "compressibility_factor";

@@ -7,7 +7,7 @@
 #include <vector>
 
 /// @file
-/// Tables of results, and the two forms they are written in.
+/// Tables of results, and the two forms in which they are written.
 namespace vitrel {
 
 /// One quantity, one value per row of its table.
@@ -15,9 +15,9 @@ struct Column {
   std::string name;  ///< letters, digits and underscores
   std::string unit;  ///< "1" for pure numbers
   std::vector<double> value = {};
-  /// Standard errors, NaN where unknown; empty: the column has none.
+  /// Standard errors, NaN where unknown; empty if the column has none.
   std::vector<double> error = {};
-  /// What the values 0, 1, 2 … stand for, if they are codes; else empty.
+  /// What the values 0, 1, 2 … stand for, if they are codes; otherwise empty.
   std::vector<std::string> labels = {};
 };
 
@@ -27,7 +27,7 @@ struct Table {
   std::vector<Column> columns;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().value.size(); }
-  /// The column of that name; null if there is none.
+  /// Returns the column of that name, or null if there is none.
   const Column* find(const std::string& column) const;
 };
 
@@ -42,49 +42,48 @@ struct Entry {
 /// Adds an entry to every column.
 void add_row(Table& table, const std::vector<Entry>& row);
 
-/// The column "index" of the numbers 1, 2 … `count`.
+/// Returns the column "index" of the numbers 1, 2 … `count`.
 Column index_column(std::size_t count);
 
 struct Results {
   std::vector<Table> tables;
-  /// Where they come from: name (letters, digits and underscores) and text, in this order.
+  /// Where the tables come from: name (letters, digits and underscores) and text, in this order.
   std::vector<std::pair<std::string, std::string>> provenance;
 
-  /// The table of that name; null if there is none.
+  /// Returns the table of that name, or null if there is none.
   const Table* find(const std::string& table) const;
-  /// The text of that name from the provenance; empty if there is none.
+  /// Returns the text of that name from the provenance, which is empty if there is none.
   std::string text(const std::string& name) const;
 };
 
-/// What the code in that row stands for; nothing if it is unknown, or the column has no codes.
+/// Returns what the code in this row stands for, or nothing if it is unknown or the column has no codes.
 std::optional<std::string> label_of(const Column& column, std::size_t row);
 
-/// The name of a species or the like as names of tables and columns may be: other characters than
-/// letters and digits become underscores.
+/// Returns the name of a species or the like in the form of names of tables and columns: characters other than letters
+/// and digits become underscores.
 std::string identifier(const std::string& name);
 
-/// CSV: one line per row with 17 significant digits (`nan` for an unknown number, a label instead of a
-/// code), after one header line of names; the column after one with errors is `name_error`. Written to a
-/// temporary file beside `path` and renamed, so that readers never see half a table. Throws
-/// FileError.
+/// Writes a table as CSV: one header line of names, then one line per row with 17 significant digits (`nan` for an
+/// unknown number, a label instead of a code). The column after one with errors is `name_error`. The text is written to
+/// a temporary file beside `path`, which is then renamed, so that readers never see half a table. Throws FileError.
 void write_csv(const std::filesystem::path& path, const Table& table);
 
-/// All tables as `<table>.csv` in a folder, which is made if it is not there, and beside them `columns.csv`: table,
-/// column, unit and description, a line for every column. Throws FileError.
+/// Writes all tables as `<table>.csv` into a folder, which is made if it is not there, and beside them `columns.csv`
+/// with a line for every column: table, column, unit and description. Throws FileError.
 void write_csv_folder(const std::filesystem::path& folder, const Results& results);
 /// The name of the file of units.
 inline constexpr const char* csv_columns = "columns.csv";
 
-/// HDF5: a group per table with attribute `description`; in it an f64 dataset per column, with the attributes `unit`
-/// and, of codes, `labels`, one a line, and `<name>_error` beside it; the texts of the provenance in a group of that
-/// name. The order is kept in the attributes `tables`, `columns` and `entries`. Atomic like write_csv. Throws
-/// FileError.
+/// Writes HDF5: a group for each table, with the attribute `description`. In it each column is an f64 dataset, with the
+/// attribute `unit` and, if it holds codes, `labels`, one a line; its errors are in `<name>_error` beside it. The texts
+/// of the provenance are in the group `provenance`. The attributes `tables`, `columns` and `entries` keep the order.
+/// The file is replaced atomically as in write_csv. Throws FileError.
 void write_results(const std::filesystem::path& path, const Results& results);
 
-/// The names of the tables in what write_results wrote. Throws FileError.
+/// Returns the names of the tables in a file of write_results. Throws FileError.
 std::vector<std::string> stored_tables(const std::filesystem::path& path);
 
-/// Reads what write_results wrote; the former name `compressibility` of tables and columns becomes
+/// Reads a file of write_results; the former name `compressibility` of tables and columns becomes
 /// `compressibility_factor`. Throws FileError.
 Results read_results(const std::filesystem::path& path);
 

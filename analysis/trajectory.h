@@ -12,30 +12,31 @@
 /// Saved runs, as the analysis sees them: a list of sample times and one configuration at each.
 namespace vitrel {
 
-/// Whom an analysis tells how far it has come; empty: nobody.
+/// A function that an analysis calls to report how far it has come; it may be empty.
 using ProgressReport = std::function<void(const Progress&)>;
 
-/// When the frames of a trajectory are, and what is known of the motion between them.
+/// The times of the frames of a trajectory, and what is known of the motion between them.
 class FrameTimes {
  public:
   virtual ~FrameTimes() = default;
-  /// Strictly increasing sample times.
+  /// Returns the strictly increasing sample times.
   virtual const std::vector<double>& times() const = 0;
-  /// Angles in the plane are known up to multiples of this, 2π, or π for directors; 0: whole turns are counted.
+  /// Returns the number up to multiples of which angles in the plane are known: 2π, or π for directors, or 0 if whole
+  /// turns are counted.
   virtual double turn_period() const { return 0; }
-  /// The frames, in ascending order, to which some particle may have gone another way than its box crossings say.
+  /// Returns the frames, in ascending order, before which some particle may have gone another way than its box
+  /// crossings say.
   virtual std::vector<std::size_t> doubtful_frames() const { return {}; }
   std::size_t frames() const { return times().size(); }
 };
 
-/// A sequence of configurations of the same particles, read one at a time: no method of the
-/// analysis needs more than one of them in memory at once.
+/// A sequence of configurations of the same particles, read one at a time, so that they need not all be in memory.
 template <int Dim>
 class Trajectory : public FrameTimes {
  public:
-  /// Frame k; the reference is valid until the next call.
+  /// Returns frame k; the reference is valid until the next call.
   virtual const Configuration<Dim>& read(std::size_t k) = 0;
-  /// The same for who needs no velocities: they may be those of another frame.
+  /// Returns frame k for a caller who needs no velocities: they may be those of another frame.
   virtual const Configuration<Dim>& read_places(std::size_t k) { return read(k); }
 };
 
@@ -43,7 +44,7 @@ class Trajectory : public FrameTimes {
 template <int Dim>
 class MemoryTrajectory : public Trajectory<Dim> {
  public:
-  /// `frames` in order of time; each carries its own time.
+  /// `frames` are in order of time; each carries its own time.
   explicit MemoryTrajectory(std::vector<Configuration<Dim>> frames) : frames_(std::move(frames)) {
     for (const Configuration<Dim>& frame : frames_) times_.push_back(frame.time);
   }
@@ -88,11 +89,10 @@ using Trajectory3 = Trajectory<3>;
 using MemoryTrajectory2 = MemoryTrajectory<2>;
 using MemoryTrajectory3 = MemoryTrajectory<3>;
 
-/// Whether the times are equally spaced up to rounding to single precision, in which many programs
-/// write them: none is farther from its place between the first and the last than 2⁻²³ of the
-/// greatest (2⁻²⁴ for its own rounding, as much for that of the ends), nor than a quarter of the
-/// interval. Time differences then depend on the difference of the indices only, and every frame can
-/// serve as an origin of time.
+/// Returns whether the times are equally spaced up to rounding to single precision, in which many programs write them.
+/// No time then is farther from its place between the first and the last than 2⁻²³ of the greatest (2⁻²⁴ for its own
+/// rounding, and as much for that of the ends), nor than a quarter of the interval. Time differences then depend on the
+/// difference of the indices only, and every frame can serve as an origin of time.
 bool evenly_spaced(std::span<const double> times);
 
 }  // namespace vitrel

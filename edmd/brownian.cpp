@@ -23,7 +23,7 @@ template <int Dim>
 void remove_momentum(Configuration<Dim>& configuration) {
   double mass = 0;
   for (double m : configuration.mass) mass += m;
-  // Twice: the first pass leaves the rounding of the sum, the second that of a sum near zero.
+  // Two passes are needed: the first leaves the rounding error of the sum, the second only that of a sum near zero.
   for (int pass = 0; pass < 2; ++pass) {
     const Vec<Dim> drift = mechanics(configuration).momentum / mass;
     for (Vec<Dim>& v : configuration.velocity) v -= drift;
@@ -46,7 +46,7 @@ Vec3 thermal_spin(const Configuration3& configuration, std::size_t i, Contacts c
     own[k] = k == shape.symmetry_axis() && contacts == Contacts::smooth
                  ? 0
                  : draw.normal() / std::sqrt(inertia[k]);
-  // The part along the axis of a spheroid is L/I⊥ (ellipsoid.h).
+  // The component along the axis of a spheroid is stored as L/I⊥ (ellipsoid.h).
   if (const int axis = shape.symmetry_axis(); axis != no_axis)
     own[axis] /= std::sqrt(spin_factor(shape));
   return configuration.orientation[i] * own;
@@ -102,7 +102,7 @@ void heat_species(Configuration<Dim>& configuration, const std::vector<double>& 
     scale_rotation(configuration, std::sqrt(0.5 * turns / now.rotational_energy));
 }
 
-/// This share of all energy in translation, the rest in rotation.
+/// Puts this share of all energy into translation and the rest into rotation.
 template <int Dim>
 void split_energy(Configuration<Dim>& configuration, double share) {
   const Mechanics<Dim> drawn = mechanics(configuration);

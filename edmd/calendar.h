@@ -26,13 +26,13 @@ namespace vitrel {
 ///    slot width is chosen so that each holds a few particles, as estimated from a sample of the earliest eighth.
 /// 4. Slots are far apart in memory, so an entry is stored a few changes later, after its slot has been prefetched.
 ///
-/// Cost: O(1) per change and per query of the earliest, averaged over a window; O(log N) per change if all times
-/// fall into few slots, for instance if they are equal. Memory: 48 bytes per particle, and 4 per stale slot entry.
-/// There are a few stale entries per particle, or up to one per change since the last reset if times move back and forth.
+/// Cost: O(1) per change and per query of the earliest, averaged over a window; O(log N) per change if all times fall
+/// into few slots, for instance if they are equal. Memory: 48 bytes per particle, and 4 per stale slot entry. There are
+/// a few stale entries per particle, or up to one per change since the last reset if times move back and forth.
 class Calendar {
  public:
-  /// Nothing is scheduled: all times are +∞. At least `lookahead` ≥ 1 particles become upcoming before their events,
-  /// as far as they are inside the window and scheduled by then.
+  /// Nothing is scheduled at first: all times are +∞. At least `lookahead` ≥ 1 particles become upcoming before their
+  /// events, if as many are scheduled inside the window by then.
   explicit Calendar(std::size_t particles = 0, std::size_t lookahead = 1)
       : lookahead_(lookahead),
         entries_(particles),
@@ -44,14 +44,14 @@ class Calendar {
   std::size_t size() const { return entries_.size(); }
   double time(std::size_t particle) const { return entries_[particle].time; }
 
-  /// The particle with the smallest (time, particle). Opens slots, hence not const.
+  /// Returns the particle with the smallest (time, particle). It opens slots and is therefore not const.
   std::size_t earliest() {
     if (heap_.size() < lookahead_ || changes_left_ <= 0) open_slots();
     return heap_.empty() ? 0 : heap_.front().particle;
   }
 
-  /// The number of particles that have become upcoming so far, and number k of them, counted from 0 (the last 64
-  /// only).
+  /// `upcoming_count` is the number of particles that have become upcoming so far; `upcoming` returns number k of them,
+  /// counted from 0, for the last 64 only.
   std::uint64_t upcoming_count() const { return upcoming_count_; }
   std::size_t upcoming(std::uint64_t k) const { return upcoming_[k % upcoming_capacity]; }
 
@@ -80,9 +80,9 @@ class Calendar {
   using Index = std::uint32_t;
 
   static constexpr double never = std::numeric_limits<double>::infinity();
-  // Special slots: the particle is in the heap; no particle.
+  // These slot numbers are special: the particle is in the heap, or there is no particle.
   static constexpr Index in_heap = std::numeric_limits<Index>::max(), no_slot = in_heap - 1;
-  // The cost has a flat minimum here: fewer slots mean more resets, wider slots a larger heap.
+  // The cost has a flat minimum at these values: fewer slots mean more resets, and wider slots a larger heap.
   static constexpr std::size_t particles_per_line = 2;
   static constexpr double particles_per_slot = 4;
   static constexpr std::size_t min_sampled = 8;
@@ -90,12 +90,13 @@ class Calendar {
   static constexpr std::size_t arity = 4;
   static constexpr std::size_t upcoming_capacity = 64;
   static constexpr double min_slot_width = 1e-300;  // so that its inverse is finite
-  // Slots are prefetched this many slots before they are opened, and then their particles.
+  // The line of a slot is prefetched `slot_lookahead` slots before the slot is opened, and its particles
+  // `particle_lookahead` slots before.
   static constexpr Index slot_lookahead = 6, particle_lookahead = 3;
 
   struct Entry {
     double time = never;
-    Index slot = 0;  // of the particle
+    Index slot = 0;  // slot in which the particle is scheduled
     Index heap = 0;  // position in the heap, if slot == in_heap
   };
   struct alignas(64) Line {
@@ -119,7 +120,7 @@ class Calendar {
   /// The slot of all times after the window.
   Index end() const { return static_cast<Index>(slots_.size()); }
 
-  // Monotonic in time despite rounding, so slots are in order.
+  // The slot is monotonic in time despite rounding, so slots stay in order.
   Index slot_of(double time) const {
     const double slot = std::max((time - begin_) * slots_per_time_, 0.0);
     return static_cast<Index>(std::min(slot, static_cast<double>(slots_.size())));
@@ -160,7 +161,7 @@ class Calendar {
     for (Index i = 0; i < entries_.size(); ++i) put_in_slot(i, slot_of(entries_[i].time));
   }
 
-  // Opens slots until the heap holds enough; the heap stays empty if nothing is scheduled.
+  // Opens slots until the heap holds enough particles; the heap stays empty if nothing is scheduled.
   void open_slots() {
     if (changes_left_ <= 0) reset_window();
     while (heap_.size() < lookahead_) {
@@ -214,7 +215,7 @@ class Calendar {
     opened_ = planned == 0 ? end() : 0;
     begin_ = planned == 0 ? -never : first;  // -never: every time is after the window
     if (planned == 0) return;
-    // The earliest eighth, by a sample.
+    // A sample of the times shows when the earliest eighth of the events is due.
     const std::size_t step = 1 + planned / sample_.size();
     std::size_t seen = 0, drawn = 0;
     for (const Entry& place : entries_)
@@ -281,10 +282,10 @@ class Calendar {
   std::uint64_t upcoming_count_ = 0;
   std::array<Index, upcoming_capacity> upcoming_{};
   LargeVector<Entry> entries_;
-  LargeVector<Line> slots_;             // the first line of each
-  LargeVector<Line> overflow_;          // further ones
-  std::array<SlotEntry, 4> delayed_{};  // not yet stored
-  std::array<double, 256> sample_{};    // of times, to fit the window
+  LargeVector<Line> slots_;             // first line of each slot
+  LargeVector<Line> overflow_;          // further lines
+  std::array<SlotEntry, 4> delayed_{};  // entries not yet stored
+  std::array<double, 256> sample_{};    // times that determine the window
   std::uint64_t delayed_count_ = 0;
   Index opened_ = 0;  // number of opened slots
   double begin_ = -never;

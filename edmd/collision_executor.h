@@ -13,7 +13,7 @@
 
 namespace vitrel {
 
-/// Executes collisions of hard particles: new velocities for both.
+/// Executes collisions of hard particles, which give both particles new velocities.
 template <Body B>
 class CollisionExecutor {
  public:
@@ -33,12 +33,12 @@ class CollisionExecutor {
     collapse_.begin_block();
     last_collision_.assign(has_contact_times_ ? state_.size() : 0, -State::never);
   }
-  /// As the state's, by this time.
+  /// Sets the times back by `elapsed`, as SimulationState::reset_clocks does.
   void reset_clocks(double elapsed) {
     for (double& time : last_collision_) time -= elapsed;
   }
 
-  /// The collision of particle i with the partner of its event. Predictions for both must follow.
+  /// Executes the collision of particle i with the partner of its event. Both must then be predicted again.
   void collide_pair(Index i, const Event<B>& event, RunCounters& counters) {
     const Index j = event.partner.other;
     const double since = state_.now - std::max(state_.last_change(i), state_.last_change(j));
@@ -49,7 +49,7 @@ class CollisionExecutor {
     if constexpr (!State::is_round) state_.neighborhoods->store_axis(i, event.partner, normal);
   }
 
-  /// The correction move for an overlapping pair.
+  /// Executes the correction move for an overlapping pair.
   void correct_overlap(Index i, const Event<B>& event, RunCounters& counters) {
     const Index j = event.partner.other;
     const Vector d = meet(i, event);
@@ -65,8 +65,8 @@ class CollisionExecutor {
     ++counters.correction_moves;
   }
 
-  /// A soft pair that cannot rotate (soft/soft_contact.h) collides as hard particles with this restitution; by the
-  /// contact-time model, t_c the duration of the contact.
+  /// Collides a soft pair that cannot rotate (soft/soft_contact.h) like hard particles with this restitution. The
+  /// contact-time model applies, with t_c the duration of the contact.
   void collide_soft_pair(Index i, Index j, const Vector& d, const Vector& n, double restitution,
                          double contact_duration, RunCounters& counters) {
     if (flight_is_short(i, j, contact_duration))
@@ -100,7 +100,8 @@ class CollisionExecutor {
     return result;
   }
 
-  /// By the law of the pair. Returns the approach speed of the surfaces.
+  /// Executes a collision by the law of the pair. Returns the approach speed of the surfaces, or 0 if the contact-time
+  /// model has made the collision elastic.
   double collide(Index i, Index j, const Vector& d, const Vector& n, RunCounters& counters) {
     const ContactLaw& law = state_.of_pair(laws_, i, j);
     const bool is_short = tc_ > 0 && flight_is_short(i, j, tc_);
@@ -119,7 +120,7 @@ class CollisionExecutor {
     return speed;
   }
 
-  /// From the first to the second particle, with their relative velocity before it.
+  /// Records the momentum that the first particle hands to the second; `before` is their relative velocity before that.
   void record_transfer(const Vector& momentum, const Vector& d, const Vector& before,
                        const Motion<dimension>& motion1, const Motion<dimension>& motion2,
                        RunCounters& counters) {
@@ -136,9 +137,9 @@ class CollisionExecutor {
     return std::max(law.restitution(speed), std::min(1., separation_speed(i, j) / speed));
   }
 
-  /// Surfaces that separate more slowly would touch again at once by rounding. With the contact-time model they must
-  /// also come clear of the contact gap, although they may rotate towards each other with an acceleration of the order
-  /// of v²/R.
+  /// Returns the speed below which separating surfaces would touch again at once by rounding. With the contact-time
+  /// model they must also get clear of the contact gap, although they may rotate towards each other with an
+  /// acceleration of the order of v²/R.
   double separation_speed(Index i, Index j) const {
     constexpr double of_fastest = 1e-13;  // far above the rounding of velocities
     constexpr double contact_gaps = 1e4;
@@ -147,15 +148,17 @@ class CollisionExecutor {
     return std::sqrt(contact_gaps * state_.contact_gap / size) * state_.fastest;
   }
 
-  /// Whether one of the two collided within this time before the present collision of theirs.
+  /// Records a collision of the pair. Returns whether one of the two had another collision less than `contact_duration`
+  /// before.
   bool flight_is_short(Index i, Index j, double contact_duration) {
     const double since = state_.now - std::max(last_collision_[i], last_collision_[j]);
     last_collision_[i] = last_collision_[j] = state_.now;
     return since < contact_duration;
   }
 
-  /// By the contact-time model (inelastic_collapse.h): an elastic, smooth collision instead of this restitution.
-  /// Surfaces that would stay together gain the speed of separation; the energy that this adds is counted.
+  /// Applies the contact-time model (inelastic_collapse.h): an elastic, smooth collision replaces one with this
+  /// restitution. Surfaces that would stay together gain the separation speed, and the energy that this adds is
+  /// counted.
   void collide_again(Index i, Index j, const Vector& d, const Vector& n, double speed,
                      double restitution, RunCounters& counters) {
     const double elastic = std::max(1., separation_speed(i, j) / speed);
@@ -165,7 +168,7 @@ class CollisionExecutor {
     counters.spared += (1 - restitution * restitution) * along;
   }
 
-  /// A rough collision.
+  /// Executes a rough collision.
   void rub(Index i, Index j, const Vector& d, const Vector& n, const ContactLaw& law,
            double restitution, RunCounters& counters) {
     Motion<dimension> motion1 = state_.full_motion(i), motion2 = state_.full_motion(j);
@@ -190,20 +193,20 @@ class CollisionExecutor {
     return approach_speed(motion1, motion2, contact_geometry(i, j, n));
   }
 
-  /// From its centre to the point of its surface with this outward normal.
+  /// Returns the vector from the centre of particle i to the point of its surface with this outward normal.
   Vector surface_from(Index i, const Vector& outward) const {
     return surface_point(scaled(state_.shape(i), state_.size_now().size),
                          state_.particles[i].pose(), outward);
   }
 
-  // Brings both to the present. Returns their separation.
+  // Advances both particles to the present. Returns their separation.
   Vector meet(Index i, const Event<B>& event) {
     state_.advance_to_now(i);
     state_.advance_to_now(event.partner.other);
     return state_.separation(i, event.partner);
   }
 
-  // The normal passes through both centres: rotation does not matter.
+  // The normal passes through both centres, so rotation does not matter.
   Impact collide_round(Index i, Index j, Motion<dimension>& motion1, Motion<dimension>& motion2,
                        const Vector& n, double restitution) const {
     const double inverse_mass1 = state_.type(i).inertia.inverse_mass,
@@ -211,7 +214,7 @@ class CollisionExecutor {
     const double growth = state_.size_now().growth_rate *
                           (state_.shape(i).circumradius() + state_.shape(j).circumradius());
     const double speed = dot(motion1.velocity - motion2.velocity, n) + growth;
-    // n has norm 1 to rounding, with a systematic error for equal disks: with n² here energy is still conserved.
+    // n has norm 1 only up to rounding, with a systematic error for equal disks; the factor n² still conserves energy.
     const double impulse =
         (1 + restitution) * speed / ((inverse_mass1 + inverse_mass2) * squared_norm(n));
     motion1.velocity -= impulse * inverse_mass1 * n;
@@ -245,7 +248,7 @@ class CollisionExecutor {
   const double tc_;
   const bool has_contact_times_;
   const bool collapses_;  ///< whether inelastic collapse is possible, and stops the run
-  std::vector<double> last_collision_;  ///< of particles; of the contact-time model
+  std::vector<double> last_collision_;  ///< of each particle, for the contact-time model
   InelasticCollapse<B> collapse_{state_};
 };
 

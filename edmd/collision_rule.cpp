@@ -42,7 +42,7 @@ Impact collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
                double restitution) {
   const AngularVelocity<Dim> spin1 = inertia1.inverse_moment * contact.arm1;
   const AngularVelocity<Dim> spin2 = inertia2.inverse_moment * contact.arm2;
-  // n has norm 1 to rounding, with a systematic error for equal disks: with n² here energy is still conserved.
+  // n has norm 1 only up to rounding, with a systematic error for equal disks; the factor n² still conserves energy.
   const double compliance =
       (inertia1.inverse_mass + inertia2.inverse_mass) * squared_norm(contact.normal) +
       dot(spin1, contact.arm1) + dot(spin2, contact.arm2);
@@ -55,7 +55,7 @@ Impact collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
   return {speed, impulse};
 }
 
-// Without growth ω becomes −e ω exactly.
+// Without growth, ω becomes exactly −e ω.
 Impact collide_with_own_image(Motion2& motion, const Inertia<2>& inertia,
                               const ContactGeometry<2>& contact, double restitution) {
   const double arm = contact.arm1 - contact.arm2;
@@ -96,8 +96,8 @@ Mat3 rotational_part(const Mat3& inverse_moment, const Vec3& arm) {
   return skew * inverse_moment * skew.transpose();
 }
 
-/// The largest κ ≤ `wanted` with |κ B_t| ≤ μ (A n + κ B)·n, for A n and B the parts of the impulse that κ leaves and
-/// multiplies; all on the side of −n.
+/// Returns the largest κ ≤ `wanted` with |κ B_t| ≤ μ (A n + κ B)·n, where A n is the part of the impulse that κ leaves
+/// alone and B the part that it multiplies. Normal components are counted along −n.
 double stuck_part(double wanted, double friction, double pressing, double pressing_of_part,
                   double tangential_of_part) {
   if (!(pressing > 0)) return 0;

@@ -14,14 +14,14 @@ namespace {
 
 constexpr double min_damping = 1e-12, max_damping = 1e5;
 
-/// e of viscoelastic spheres as a function of ln c_dis.
+/// Returns e of viscoelastic spheres as a function of ln c_dis.
 double viscoelastic_restitution(double log_damping) {
   using Panels = ChebyshevPanels<1, 8, 1>;
   static const Box<1> domain{{logarithm(min_damping)}, {logarithm(max_damping)}};
   static const Panels panels(
       domain,
       [](const Panels::Point& at) {
-        constexpr double any_distance = 1e6;  // of the centres, in units of the compression
+        constexpr double any_distance = 1e6;  // l in units of X (soft/restitution.h)
         return Panels::Value{
             -integrate_contact<Viscoelastic>({any_distance, 0, exponential(at[0])}).rate};
       },
@@ -29,7 +29,7 @@ double viscoelastic_restitution(double log_damping) {
   return (*panels({std::clamp(log_damping, domain.low[0], domain.high[0])}))[0];
 }
 
-/// Where e has this value: it falls with the damping.
+/// Returns the ln c_dis at which e has this value; e falls with the damping.
 double log_damping_of(double value) {
   double low = logarithm(min_damping), high = logarithm(max_damping);
   while (high - low > 1e-14 * std::abs(low)) {

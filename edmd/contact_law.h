@@ -14,19 +14,20 @@ namespace vitrel {
 /// The coefficient of normal restitution e, 0 ≤ e ≤ 1, as a function of the approach speed u of the surfaces.
 class NormalRestitution {
  public:
-  /// The same at all speeds.
+  /// A coefficient that is the same at all speeds.
   NormalRestitution(double constant = 1) : form_(constant) {}  // NOLINT: a number is a law
 
-  /// Viscoelastic spheres (soft/viscoelastic.h), in the limit of short contacts: e depends on c_dis ∝ u^(1/5) only. It
-  /// is `value`, above 0 and below 1, at this speed; it tends to 1 as the speed vanishes. Error: 1e-9, from a table of
-  /// integrated head-on impacts; e above c_dis = 1e5, where it is below 1e-4, is that of c_dis = 1e5.
+  /// The coefficient of viscoelastic spheres (soft/viscoelastic.h) in the limit of short contacts, where e depends on
+  /// c_dis ∝ u^(1/5) only. It equals `value`, above 0 and below 1, at `speed`, and tends to 1 as the speed vanishes.
+  /// The error is 1e-9, since e comes from a table of integrated head-on impacts. Above c_dis = 1e5, where e is below
+  /// 1e-4, the table uses its value at c_dis = 1e5.
   static NormalRestitution viscoelastic(double value, double speed);
 
-  /// Linear between these speeds, which ascend, and constant outside of them.
+  /// A coefficient that is linear between these ascending speeds, and constant outside of them.
   static NormalRestitution tabulated(std::vector<double> speeds, std::vector<double> values);
 
   double operator()(double speed) const;
-  /// Whether it is 1 at all speeds.
+  /// Returns whether e is 1 at all speeds.
   bool is_elastic() const;
   bool is_constant() const { return std::holds_alternative<double>(form_); }
 
@@ -42,15 +43,15 @@ class NormalRestitution {
   std::variant<double, Viscoelastic, Table> form_;
 };
 
-/// What a collision leaves of the relative motion of two surfaces.
+/// The law that determines the relative motion of two surfaces after a collision.
 struct ContactLaw {
   NormalRestitution restitution;
-  /// μ, Coulomb's friction coefficient; 0: smooth.
+  /// Coulomb's friction coefficient μ; 0 means smooth.
   double friction = 0;
-  /// β of a contact that does not slip, −1 (smooth) … 0 (no tangential speed is left) … 1 (reversed).
+  /// β of a contact that does not slip: −1 (smooth) … 0 (no tangential speed is left) … 1 (tangential speed reversed).
   double tangential_restitution = 0;
 
-  static constexpr double no_slip = std::numeric_limits<double>::infinity();  ///< μ
+  static constexpr double no_slip = std::numeric_limits<double>::infinity();  ///< μ without slip
 
   bool is_rough() const { return friction > 0 && tangential_restitution > -1; }
 };
@@ -62,9 +63,9 @@ class ContactLaws : public PairsOfSpecies<ContactLaw> {
   ContactLaws(double restitution)  // NOLINT: a number is a law
       : PairsOfSpecies(ContactLaw{restitution}) {}
 
-  /// Whether any contact changes rotations that smooth ones do not.
+  /// Returns whether any contact changes rotations that smooth contacts do not change.
   bool are_rough() const;
-  /// Whether e < 1 for any pair and speed.
+  /// Returns whether e < 1 for any pair and speed.
   bool are_inelastic() const;
 };
 

@@ -12,16 +12,19 @@
 /// @file
 /// The first contact of a particle with its neighbours.
 ///
-/// In every pair of neighbours (i, j), one has predicted an event no later than their first contact. A prediction for i
-/// therefore never searches beyond the time up to which the contacts of j are known. A predicted contact whose partner
-/// has changed its motion in the meantime is stale: when its time comes, the particle is predicted again.
+/// In every pair of neighbours (i, j), at least one of the two has predicted an event no later than their first
+/// contact. A prediction for i therefore never searches beyond the time up to which the contacts of j are known. A
+/// predicted contact whose partner has changed its motion in the meantime is stale: when its time comes, the particle
+/// is predicted again.
 namespace vitrel {
 
-/// The neighbours that a prediction tests: all, up to the time that they know themselves; or, when all particles are
-/// predicted in parallel, only those with higher indices, so that each pair is tested once.
+/// The neighbours that a prediction tests. Usually it tests all of them, up to the time to which they know their own
+/// contacts; when all particles are predicted in parallel, it tests only those with higher indices, so that each pair
+/// is tested once.
 enum class PredictionScope { all_neighbors, higher_indices };
 
-/// Neighbours of a particle from number `first` on; if there are fewer, the last one several times.
+/// A batch of the neighbours of a particle, from number `first` on. If too few are left to fill it, the last one is
+/// repeated.
 template <Body B, int lanes>
 class NeighborBatch {
  public:
@@ -29,8 +32,8 @@ class NeighborBatch {
       partner[lanes];  ///< at their images; contacts after `known_until` do not matter
   const WarmStart<B>* warm_start[lanes];
   std::uint32_t other[lanes];  ///< particle numbers
-  int count;                   ///< of different neighbours
-  std::uint64_t tested;        ///< of these, without pairs that are tested from the other side
+  int count;                   ///< number of different neighbours
+  std::uint64_t tested;        ///< neighbours without pairs that are tested from the other side
 
   template <PredictionScope scope>
   VITREL_INLINE void load(SimulationState<B>& state, std::uint32_t i,
@@ -61,7 +64,7 @@ class NeighborBatch {
   FlightRecord<B> copy_[lanes];
 };
 
-/// A pair whose contact time needs a search, or which overlaps.
+/// A pair that overlaps, or whose contact time needs a search.
 template <Body B>
 class ContactSearch {
  public:
@@ -73,8 +76,8 @@ class ContactSearch {
   ContactSearch(const State& state, OnOverlap on_overlap)
       : state_(state), on_overlap_(on_overlap) {}
 
-  /// Replaces `best` by the first contact with this neighbour, if that is earlier than `best` and the horizon. There is
-  /// none for `screened`.
+  /// Replaces `best` by the first contact with this neighbour, if that is earlier than `best` and the horizon. The
+  /// contact screen has excluded contacts within the time `screened` from now.
   void search(Index i, const Particle& mine, const Neighbor<B>& neighbor, double screened,
               double horizon, TimedEvent<B>& best, RunCounters& counters) const {
     const Index j = neighbor.other;
@@ -114,8 +117,8 @@ class ContactSearch {
       return {state_.shape(i)};
   }
 
-  // While the centres of an overlapping pair recede, the correction waits: for this fraction of the time in which they
-  // move by their own width.
+  // While the centres of an overlapping pair recede, the correction waits for this fraction of the time in which they
+  // move by the sum of the inradii.
   double time_to_watch(Index i, Index j, const Vec<dimension>& d) const {
     constexpr double fraction = 0.05;
     const Vec<dimension> relative = state_.particles[j].velocity - state_.particles[i].velocity;
@@ -127,9 +130,9 @@ class ContactSearch {
   OnOverlap on_overlap_;
 };
 
-/// Bodies that are not round. All neighbours are screened (contact_screen.h), and only the candidates that could come
-/// first are searched, in the order of their lower bounds. A contact whose lower bound is far ahead is not searched,
-/// because other events overtake most of these; the particle is predicted again at that time.
+/// The predictor of bodies that are not round. It screens all neighbours (contact_screen.h) and searches only the
+/// candidates that could come first, in the order of their lower bounds. It does not search a contact whose lower bound
+/// is far ahead, because other events overtake most such contacts; it predicts the particle again at that time.
 template <Body B>
 class ContactPredictor {
  public:
@@ -142,7 +145,7 @@ class ContactPredictor {
   ContactPredictor(State& state, OnOverlap on_overlap)
       : state_(state), search_(state, on_overlap) {}
 
-  /// The earlier of `known` and the first contact of particle i with these neighbours before the horizon.
+  /// Returns the earlier of `known` and the first contact of particle i with these neighbours before the horizon.
   template <Scope scope>
   TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
                         double horizon, RunCounters& counters) const {
@@ -186,8 +189,8 @@ class ContactPredictor {
     }
   }
 
-  // The mean time between two collisions of a particle in this block, once it is known. A contact that cannot
-  // occur within this time is not searched yet. The speed-up has a flat maximum around one mean free time
+  // Returns the mean time between two collisions of a particle in this block, or +∞ while it is unknown. A contact that
+  // cannot occur within this time is not searched yet. The speed-up has a flat maximum around one mean free time
   // (docs/studies/engine.md).
   double mean_free_time() const {
     const auto particles = static_cast<double>(state_.size());

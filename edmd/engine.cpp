@@ -17,10 +17,10 @@ void require_round(const Configuration<Dim>& configuration, const EngineOptions&
     throw UserError("soft particles must be round and cannot grow");
 }
 
-/// Cells cost less than lists while there are fewer particles than this in a cell of the least width: up to a packing
-/// fraction of 0.36 of equal disks and 0.22 of equal spheres, the lowest values measured on any machine
-/// (docs/studies/engine.md). In systems that exceed the caches, of which the loop prefetches lists
-/// only, the limit is lower.
+/// Cells cost less than lists while a cell of minimum width holds fewer particles than this: up to a packing fraction
+/// of 0.36 for equal disks and 0.22 for equal spheres, the lowest values measured on any machine
+/// (docs/studies/engine.md). The limit is lower in systems that exceed the caches, because the event loop prefetches
+/// lists but not cells.
 double max_particles_per_cell(std::size_t particles) {
   constexpr std::size_t cached_particles = 32768;
   return particles <= cached_particles ? 0.56 : 0.32;

@@ -4,19 +4,19 @@
 
 namespace vitrel {
 
-/// What happens next to a particle.
+/// The next event of a particle.
 template <Body B>
 struct alignas(32) Event {
   enum class Type : std::uint8_t {
     collision,
     overlap,    ///< the pair overlaps already
     exit,       ///< the particle leaves its neighbourhood
-    repredict,  ///< nothing: it is predicted again
+    repredict,  ///< nothing happens, but the particle is predicted again
   };
   using State = SimulationState<B>;
   using Vector = typename State::Vector;
 
-  /// The contact normal; of round bodies it is the line of centres.
+  /// The contact normal of bodies that are not round; for round bodies it is the line of centres.
   struct ContactNormal {
     Vector value = Vector::Zero();
   };

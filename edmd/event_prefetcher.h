@@ -9,9 +9,9 @@
 
 namespace vitrel {
 
-/// Prefetches what upcoming events will read, in stages some events apart, of which each uses the data that the one
-/// before has prefetched. For systems with neighbour lists that exceed the caches, where consecutive events are far apart
-/// in memory.
+/// Prefetches what upcoming events will read. It works in stages some events apart, each of which uses the data that
+/// the stage before has prefetched. It serves systems with neighbour lists that exceed the caches, where consecutive
+/// events are far apart in memory.
 template <Body B>
 class EventPrefetcher {
  public:
@@ -21,13 +21,13 @@ class EventPrefetcher {
   EventPrefetcher(State& state, const Calendar& calendar, const LargeVector<Event<B>>& events)
       : state_(state), calendar_(calendar), events_(events) {}
 
-  /// Whether it pays: below this size it costs more than it saves. In three dimensions a particle has twice the
-  /// neighbours.
+  /// Returns whether prefetching pays: in smaller systems it costs more than it saves. The limit is lower in three
+  /// dimensions, where a particle has twice as many neighbours.
   bool is_useful() const { return state_.size() > cached_particles && state_.neighborhoods; }
-  /// The number of upcoming events that the calendar must know.
+  /// Returns the number of upcoming events that the calendar must know.
   std::size_t lookahead() const { return is_useful() ? stages * events_per_stage : 1; }
 
-  /// After the calendar has been made anew.
+  /// Starts anew; to be called after the calendar has been rebuilt.
   void restart() { prefetched_ = 0; }
   void advance() {
     for (; prefetched_ < calendar_.upcoming_count(); ++prefetched_)
@@ -74,7 +74,7 @@ class EventPrefetcher {
   State& state_;
   const Calendar& calendar_;
   const LargeVector<Event<B>>& events_;
-  std::uint64_t prefetched_ = 0;  // upcoming particles so far
+  std::uint64_t prefetched_ = 0;  // upcoming particles prefetched so far
 };
 
 }  // namespace vitrel

@@ -16,24 +16,25 @@ namespace vitrel {
 
 namespace {
 
-/// Maximum growth of all lengths in one block: neighbour lists are made for the sizes at its start.
+/// Maximum growth of all lengths in one block, since neighbour lists are made for the sizes at its start.
 constexpr double max_block_growth = 0.2;
-/// Maximum growth between two rescalings times Z, so that kT (which rises by twice as much) and Z change little.
+/// Maximum growth between two rescalings, times Z. It is small, so that kT (which rises by twice as much) and Z change
+/// little.
 constexpr double max_step_compression = 0.05;
-/// Growth of the box, relative, in which jammed particles become fluid again.
+/// Relative growth of the box by which jammed particles become fluid again.
 constexpr double retry_expansion = 0.1;
-/// Growth with enough collisions to measure the pressure, even of a gas.
+/// Growth that holds enough collisions to measure the pressure, even of a gas.
 constexpr double min_pressure_growth = 0.005;
-/// From this reduced pressure on, a packing fraction more than 30/Z away is out of reach.
+/// From this reduced pressure on, a packing fraction that is higher by more than a share 30/Z is out of reach.
 constexpr double nearly_jammed = 1e4, within_reach = 30;
 
-/// The time average of a temperature that rises exponentially from 1 to `end`.
+/// Returns the time average of a temperature that rises exponentially from 1 to `end`.
 double mean_of_rise(double end) {
   const double rise = end - 1;
   return rise == 0 ? 1 : rise / logarithm_of_one_plus(rise);
 }
 
-/// sqrt(target/energy), or 1 where there is no energy to scale.
+/// Returns sqrt(target/energy), or 1 if there is no energy to scale.
 double scale_to(double target, double energy) {
   return energy > 0 ? std::sqrt(target / energy) : 1;
 }
@@ -72,7 +73,7 @@ class Growth {
 
  private:
   double packing_fraction() const { return vitrel::packing_fraction(configuration_); }
-  /// γ
+  /// Returns γ of the current try.
   double rate() const {
     return std::ldexp(options_.growth_rate / typical_time_, -static_cast<int>(state_.retries));
   }
@@ -105,7 +106,7 @@ class Growth {
   void begin() {
     draw_velocities(configuration_, options_.seed, Purpose::velocities, state_.draws++,
                     Temperature::relative);
-    // A single particle would keep its momentum.
+    // A single particle would otherwise keep its momentum.
     if (configuration_.size() == 1) configuration_.velocity[0] = Vec<Dim>::Zero();
     state_.under_way = true;
   }
@@ -155,7 +156,7 @@ class Growth {
     return stop;
   }
 
-  /// Growth of all lengths in one step.
+  /// Returns the growth of all lengths in one step.
   double step_growth() const {
     return max_step_compression / std::max(state_.reduced_pressure, 1.0);
   }
@@ -212,7 +213,7 @@ class Growth {
            *options_.packing_fraction > packing_fraction() * (1 + within_reach / z);
   }
 
-  // In logarithms, in which growth is nearly uniform.
+  // Progress is measured in logarithms, in which growth is nearly uniform.
   double progress() const {
     double done = 0;
     if (options_.packing_fraction)
@@ -248,7 +249,7 @@ class Growth {
   const std::vector<ParticleShape<Dim>> shapes_;
   const double typical_time_;
   const double start_time_, start_fraction_;
-  const double translations_, rotations_;  // energies at kT = 1, half the degrees of freedom
+  const double translations_, rotations_;  // energies at kT = 1: half the degrees of freedom
   std::unique_ptr<Engine<Dim>> engine_;
   bool is_stalled_ = false;
 };

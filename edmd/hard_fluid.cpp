@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Evenly spread over a half circle or sphere, in the axes of the body.
+/// Returns unit vectors spread evenly over a half circle or half sphere, in the axes of the body.
 template <int Dim>
 std::vector<Vec<Dim>> directions() {
   constexpr int count = Dim == 2 ? 64 : 256;
@@ -28,7 +28,7 @@ std::vector<Vec<Dim>> directions() {
   return result;
 }
 
-/// ℓ²/I of the contact at the point with normal n.
+/// Returns ℓ²/I of a contact at the surface point with normal n.
 double lever_term(double inertia, const Vec2& point, const Vec2& n) {
   const double lever = point.x() * n.y() - point.y() * n.x();
   return lever * lever / inertia;
@@ -37,7 +37,8 @@ double lever_term(const Vec3& inertia, const Vec3& point, const Vec3& n) {
   return sum(point.cross(n).cwiseAbs2().cwiseQuotient(inertia));
 }
 
-/// The projected area of an ellipsoid along n is π times this; the mean over all n is a quarter of the surface.
+/// Returns a term whose mean over all n is the perimeter or the surface: 2π times the support function of an ellipse,
+/// or 4 times the projected area of an ellipsoid along n.
 double boundary_term(const Vec2& axes, const Vec2& n) {
   return 2 * pi * norm(axes.cwiseProduct(n));
 }
@@ -58,7 +59,7 @@ void HardFluid::Averages::add(const Averages& other, double weight) {
 template <int Dim>
 HardFluid::Averages HardFluid::averages_of(const Configuration<Dim>& c, std::size_t i) {
   static const std::vector<Vec<Dim>> normals = directions<Dim>();
-  const bool is_round = c.shape[i].is_round();  // then all directions say the same
+  const bool is_round = c.shape[i].is_round();  // all directions are then equivalent
   const std::span<const Vec<Dim>> seen = std::span(normals).first(is_round ? 1 : normals.size());
   const Vec<Dim> axes = c.shape[i].half_lengths();
   const auto inertia = c.inertia(i);

@@ -3,25 +3,26 @@
 #include "core/state/configuration.h"
 
 /// @file
-/// What theory expects of a fluid of hard particles, to estimate what a simulation costs.
+/// Theoretical estimates for a fluid of hard particles, from which the cost of a simulation is predicted.
 ///
-/// Z is that of scaled-particle theory for convex bodies (gibbons1969), in the plane 1/(1 − φ) + P²/(4πA) φ/(1 − φ)²
-/// (boublik1975). The virial theorem relates the rate of collisions to it, (Z − 1) D N kT = ν ⟨J⟩ ⟨n·r⟩, with the mean
-/// impulse ⟨J⟩ = √(2π μ kT) at the effective mass 1/μ = Σ (1/m + ℓ²/I), ℓ the lever of the contact point, and ⟨n·r⟩
-/// twice the mean support function ⟨h⟩. Averages are over uniform normals n and over the particles.
+/// Z is that of scaled-particle theory for convex bodies (gibbons1969), which in the plane is 1/(1 − φ) + P²/(4πA)
+/// φ/(1 − φ)² (boublik1975). The virial theorem relates the collision rate to Z: (Z − 1) D N kT = ν ⟨J⟩ ⟨n·r⟩. Here
+/// ⟨J⟩ = √(2π μ kT) is the mean impulse at the effective mass 1/μ = Σ (1/m + ℓ²/I), ℓ the lever of the contact point,
+/// and ⟨n·r⟩ twice the mean support function ⟨h⟩. Averages are over uniform normals n and over the particles.
 ///
-/// Good to a factor of two for elastic fluids below freezing.
+/// The estimates are good to a factor of two for elastic fluids below freezing.
 namespace vitrel {
 
 class HardFluid {
  public:
-  /// `some`: all particles, or some that represent them.
+  /// `some` holds all particles, or some that represent them.
   template <int Dim>
   explicit HardFluid(const Configuration<Dim>& some);
 
-  /// Z = βP/ρ at the packing fraction φ.
+  /// Returns Z = βP/ρ at the packing fraction φ.
   double compressibility_factor(double phi) const;
-  /// The collisions per particle and unit of time, at kT = 1; each particle takes part in twice as many.
+  /// Returns the number of collisions per particle and unit of time at kT = 1; each particle takes part in twice as
+  /// many.
   double collision_rate(double phi) const;
 
   int dimension() const { return dimension_; }
@@ -31,7 +32,7 @@ class HardFluid {
   static constexpr double events_per_collision = 1.7;
 
  private:
-  /// Over the directions of the normal and the particles.
+  /// Averages over the directions of the normal and over the particles.
   struct Averages {
     double support = 0;          ///< h, the mean radius of curvature
     double boundary = 0;         ///< perimeter or surface

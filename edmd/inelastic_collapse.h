@@ -12,13 +12,13 @@
 
 namespace vitrel {
 
-/// Inelastic collapse: infinitely many collisions of a few particles in a finite time; or of one pair, like a bouncing
-/// ball, whose rotation brings the surfaces together again. The criterion: the distances travelled between collisions
-/// stay below the contact gap several times in a row.
+/// Detects inelastic collapse: infinitely many collisions of a few particles in a finite time, or of one pair, like a
+/// bouncing ball, whose rotation brings the surfaces together again. The criterion is that the distances travelled
+/// between collisions stay below the contact gap several times in a row.
 ///
-/// Runs stop there, unless they use the contact-time model (luding1998): a collision within the time t_c after the one
-/// before of either particle is elastic and smooth, as it would be if contacts took that long and the particles were
-/// still in touch. Its effect is small if t_c is well below the time between collisions.
+/// Collapse ends a run, unless it uses the contact-time model (luding1998): a collision within the time t_c after the
+/// previous one of either particle is elastic and smooth, as it would be if contacts took that long and the particles
+/// were still in touch. The effect of the model is small if t_c is well below the time between collisions.
 template <Body B>
 class InelasticCollapse {
  public:
@@ -28,7 +28,8 @@ class InelasticCollapse {
 
   void begin_block() { count_.assign(state_.size(), 0); }
 
-  /// After a collision that came after this displacement of the surfaces. Throws InvariantError if it collapses.
+  /// Registers a collision before which the surfaces moved by this displacement. Throws InvariantError if the particles
+  /// collapse.
   void detect(Index i, Index j, double displacement) {
     for (const Index k : {i, j})
       count_[k] =

@@ -14,8 +14,8 @@ namespace vitrel {
 
 class SoftContact;
 
-/// What to do with a pair found overlapping. A hard run never produces one: `stop` throws InvariantError; `correct`
-/// applies the correction move of the thesis (separate, collision_rule.h) and counts it.
+/// What happens to a pair found overlapping. A run of hard particles never produces one: `stop` throws InvariantError;
+/// `correct` applies the correction move of the thesis (separate, collision_rule.h) and counts it.
 enum class OnOverlap { stop, correct };
 
 /// Whether a soft particle that is hit while in contact is released alone or together with its partner
@@ -33,19 +33,20 @@ enum class NeighborSearch {
 enum class FreeRotation { euler, constant };
 
 struct EngineOptions {
-  ContactLaws laws;  ///< of hard particles
-  /// t_c of the contact-time model (inelastic_collapse.h); 0: off
+  ContactLaws laws;  ///< laws of hard particles
+  /// t_c of the contact-time model (inelastic_collapse.h); 0 turns it off.
   double contact_duration = 0;
   OnOverlap on_overlap = OnOverlap::stop;
-  /// From `load` on, all semi-axes are those loaded times 1 + growth_rate · time. Masses are constant, moments of
+  /// From `load` on, all semi-axes are the loaded ones times 1 + growth_rate · time. Masses are constant, moments of
   /// inertia are those of the current axes, and angular velocities are constant in flight.
   double growth_rate = 0;
-  /// If set, the particles are soft: round, and not growing; `laws` and `contact_duration` then have no effect.
+  /// If set, the particles are soft: they must be round and cannot grow, and `laws` and `contact_duration` have no
+  /// effect.
   PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact = {};
   FreeRotation rotation = FreeRotation::euler;
   EarlyRelease early_release = EarlyRelease::alone;
-  std::optional<NeighborSearch> neighbors = {};  ///< none: by density
-  /// Threads that predict all particles; results do not depend on their number.
+  std::optional<NeighborSearch> neighbors = {};  ///< if empty, chosen by density
+  /// Number of threads that predict all particles; results do not depend on it.
   int threads = 1;
 };
 
@@ -53,7 +54,7 @@ inline bool are_soft(const EngineOptions& options) {
   return options.soft_contact.values().front() != nullptr;
 }
 
-/// What the laws of contact make of rotations.
+/// Returns whether the contact laws change rotations that smooth contacts do not change.
 inline Contacts contacts(const EngineOptions& options) {
   return options.laws.are_rough() ? Contacts::rough : Contacts::smooth;
 }
@@ -64,50 +65,50 @@ inline Contacts contacts(const EngineOptions& options) {
 ///               term of order 1/N
 ///     relative: Σ m v²/2 = D (N − 1) kT/2; Newtonian equipartition is then exact
 ///
-/// The rotational energy is N_rot kT/2 in both, N_rot the number of rotational degrees of freedom that contacts change
-/// (rotation_count).
+/// The rotational energy is N_rot kT/2 in both cases, where N_rot is the number of rotational degrees of freedom that
+/// contacts change (rotation_count).
 enum class Temperature { total, relative };
 
 /// The initial velocities of a run.
 enum class InitialVelocities {
-  maxwell,      ///< drawn as above
+  maxwell,      ///< drawn at random (draw_velocities)
   translation,  ///< drawn, then all energy transferred to translation
   rotation,     ///< drawn, then all energy transferred to rotation
-  keep,         ///< those of the configuration
-  split,        ///< drawn, then this share of all energy in translation, and the rest in rotation
+  keep,         ///< taken from the configuration
+  split,        ///< drawn, then the energy split by InitialEnergies::translation
 };
 
-/// What drawn velocities hold.
+/// The energies of drawn velocities.
 struct InitialEnergies {
-  double translation = 0.5;               ///< share of all energy, of `split`
-  std::vector<double> temperatures = {};  ///< kT by species; empty: 1
+  double translation = 0.5;               ///< share of all energy, for InitialVelocities::split
+  std::vector<double> temperatures = {};  ///< kT of each species; empty: 1
 };
 
-/// Random kicks (kick, brownian.h).
+/// Options of the random kicks (`kick`, brownian.h).
 struct Driving {
   double interval = 0.01;  ///< τ, time between kicks
   double power = 1;        ///< P, mean energy supplied to a particle per unit of time
 };
 
-/// Newtonian dynamics, or Brownian: the same with all velocities redrawn every `brownian_step`.
+/// Options of Newtonian dynamics, or of Brownian dynamics, which redraws all velocities every `brownian_step`.
 struct DynamicsOptions {
   EngineOptions engine;
-  std::optional<Driving> driving = {};  ///< of Newtonian dynamics
+  std::optional<Driving> driving = {};  ///< for Newtonian dynamics
   bool brownian = false;
   double brownian_step = 0.1;  ///< τ_B
   Temperature temperature = Temperature::total;
   std::uint64_t seed = 1;
 };
 
-/// At higher pressures the gaps approach the rounding of the coordinates; particles count as jammed.
+/// Above this pressure the gaps approach the rounding of the coordinates, and particles count as jammed.
 inline constexpr double max_reduced_pressure = 1e9;
 
 struct GrowthOptions {
   double growth_rate = 1e-3;               ///< γ τ, τ the typical time; negative to shrink
-  std::optional<double> packing_fraction;  ///< target (to tolerance::given_fraction)
-  std::optional<double> reduced_pressure;  ///< ends with the first block that reaches it
+  std::optional<double> packing_fraction;  ///< target, met to within tolerance::given_fraction
+  std::optional<double> reduced_pressure;  ///< target; the first block that reaches it is the last
   std::uint64_t seed = 1;
-  int retries = 0;  ///< maximum, of particles that jam below the packing fraction (growth.h)
+  int retries = 0;  ///< maximum number, if particles jam below the packing fraction (growth.h)
 };
 
 }  // namespace vitrel

@@ -8,15 +8,15 @@
 
 namespace vitrel {
 
-/// A value for each pair of species, the same for (a, b) and (b, a), or one for all particles.
+/// A value for each pair of species, the same for (a, b) and (b, a), or one value for all particles.
 template <class T>
 class PairsOfSpecies {
  public:
-  /// One value for all.
+  /// Holds one value for all pairs.
   template <std::convertible_to<T> U = T>
   PairsOfSpecies(U all = {})
       : values_{T(std::move(all))} {}  // NOLINT: a value is that of all pairs
-  /// One value for all pairs but those that are set.
+  /// Holds one value for all pairs except those that `set` changes.
   PairsOfSpecies(std::size_t species, const T& all)
       : species_(species), values_(species * species, all) {}
 

@@ -8,8 +8,8 @@
 
 namespace vitrel {
 
-/// Disks and spheres: all contacts are computed, also those after the particle leaves its neighbourhood. When it does,
-/// only contacts with new neighbours remain to be predicted.
+/// The predictor of disks and spheres. It computes all contacts, also those after the particle leaves its
+/// neighbourhood. When the particle leaves, only contacts with new neighbours remain to be predicted.
 template <RoundBody B>
 class ContactPredictor<B> {
  public:
@@ -21,7 +21,7 @@ class ContactPredictor<B> {
   ContactPredictor(State& state, OnOverlap on_overlap)
       : state_(state), search_(state, on_overlap) {}
 
-  /// As above.
+  /// Returns the earlier of `known` and the first contact of particle i with these neighbours before the horizon.
   template <Scope scope>
   TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
                         double horizon, RunCounters& counters) const {
@@ -49,7 +49,7 @@ class ContactPredictor<B> {
                                    state_.version[neighbor.other], Vec<dimension>::Zero())};
     else
       search_.search(i, state_.record_now(i), neighbor, 0, horizon, best,
-                     counters);  // touches or overlaps
+                     counters);  // the pair touches or overlaps
     return best;
   }
 

@@ -63,8 +63,8 @@ class EventDrivenRun {
     }
   }
 
-  // One block; true if the end of the run was reached. It also ends after many samples, ticks and steps, however few
-  // events come between them: a stop and checkpoints wait for the end of a block.
+  // Runs one block. Returns true if the end of the run was reached. A block also ends after many samples, ticks and
+  // steps, however few events come between them, because stops and checkpoints wait for the end of a block.
   bool run_block() {
     constexpr int max_stops = 256;
     for (int stops = 0; stops < max_stops; ++stops) {
@@ -93,7 +93,8 @@ class EventDrivenRun {
                                                : std::numeric_limits<double>::infinity();
     return state_.start_time + interval * static_cast<double>(state_.velocity_steps + 1);
   }
-  // The horizon of predictions: not the end, so that the motion does not depend on it and a run can be made longer.
+  // The horizon of predictions is not the end of the run: the motion must not depend on the end, so that a run can be
+  // made longer.
   double horizon() const { return next_step_time(); }
   double next_stop() const {
     return std::min({plan_.end_time, next_sample_time(), next_tick_time(), next_step_time()});
@@ -117,7 +118,7 @@ class EventDrivenRun {
     state_.output_seconds += spent.count();
   }
 
-  // A Brownian step, or kicks.
+  // Takes a Brownian step, or kicks the particles.
   void change_velocities() {
     Configuration<Dim>& configuration = state_.configuration;
     const int threads = options_.engine.threads;
@@ -125,7 +126,7 @@ class EventDrivenRun {
     record_conservation();
     ++state_.velocity_steps;
     if (options_.brownian) {
-      configuration.releases.clear();  // to velocities of before
+      configuration.releases.clear();  // they hold velocities from before the step
       draw_velocities(configuration, options_.seed, Purpose::brownian_step, state_.velocity_steps,
                       options_.temperature, contacts(options_.engine), threads);
     } else {
@@ -157,7 +158,7 @@ class EventDrivenRun {
           "restitution closer to 1, or a shorter run");
   }
 
-  /// Before time 0 the run equilibrates.
+  /// Reports time before 0 as equilibration.
   Progress progress() const {
     const double time = state_.configuration.time, start = state_.start_time;
     const double whole = plan_.end_time - start;
@@ -171,7 +172,7 @@ class EventDrivenRun {
   const RunPlan<Dim>& plan_;
   const RunControl& control_;
   std::unique_ptr<Engine<Dim>> engine_;
-  const SampleTimes ticks_;  ///< of the whole run
+  const SampleTimes ticks_;  ///< ticks of the whole run
 };
 
 }  // namespace

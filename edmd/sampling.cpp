@@ -10,10 +10,10 @@ namespace vitrel {
 
 namespace {
 
-/// Room for the rounding of the last time, so that a duration of 100 intervals has 101 samples.
+/// Allows for the rounding of the last time, so that a duration of 100 intervals has 101 samples.
 constexpr double slack = 1e-9;
 
-/// first · 10^(k/per_decade)
+/// Returns first · 10^(k/per_decade).
 double logarithmic_time(std::uint64_t k, double first, int per_decade) {
   const auto steps = static_cast<std::uint64_t>(per_decade);
   const double within = std::numbers::ln10 * static_cast<double>(k % steps) / per_decade;
@@ -47,7 +47,7 @@ SampleTimes logarithmic_times(double first, int per_decade, double duration) {
   const auto is_in = [&](std::uint64_t k) {
     return logarithmic_time(k, first, per_decade) <= last;
   };
-  // The logarithm is off by rounding at most.
+  // The logarithm is off by no more than rounding.
   const double steps = per_decade * logarithm(last / first) / std::numbers::ln10;
   auto count = static_cast<std::uint64_t>(std::max(0., std::floor(steps)));
   while (count > 0 && !is_in(count - 1)) --count;

@@ -6,16 +6,16 @@
 
 namespace vitrel {
 
-/// The times of the samples of a run, in ascending order. Those of the functions below are computed when they are asked
-/// for: there may be 10⁸.
+/// The times of the samples of a run, in ascending order. The times of `linear_times` and `logarithmic_times` are
+/// computed on demand, since there may be 10⁸ of them.
 class SampleTimes {
  public:
-  /// No samples.
+  /// A run without samples.
   SampleTimes() = default;
   SampleTimes(std::vector<double> listed) : listed_(std::move(listed)), size_(listed_.size()) {}
 
   std::uint64_t size() const { return size_; }
-  /// The time of sample k < size().
+  /// Returns the time of sample k < size().
   double operator[](std::uint64_t k) const;
 
  private:
@@ -29,10 +29,10 @@ class SampleTimes {
   std::uint64_t size_ = 0;
 };
 
-/// 0, interval, 2 interval, … ≤ duration.
+/// Returns the times 0, interval, 2 interval, … ≤ duration.
 SampleTimes linear_times(double interval, double duration);
 
-/// 0, first, first · 10^(1/per_decade), … ≤ duration.
+/// Returns the times 0, first, first · 10^(1/per_decade), … ≤ duration.
 SampleTimes logarithmic_times(double first, int per_decade, double duration);
 
 }  // namespace vitrel

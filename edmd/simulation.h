@@ -21,13 +21,12 @@
 
 namespace vitrel {
 
-/// The event loop, written once for all bodies: takes the next particle from the calendar (calendar.h), lets its event
-/// happen (collision_executor.h, soft_contacts.h), and predicts what happens next to the particles that it changed
+/// The event loop, written once for all bodies. It takes the next particle from the calendar (calendar.h), executes its
+/// event (collision_executor.h, soft_contacts.h), and predicts the next events of the particles that changed
 /// (contact_predictor.h).
 ///
-/// Each particle has one entry in the calendar: the earliest of its contacts with its neighbours, of the time at which
-/// it leaves its neighbourhood, and of its release from a soft contact. A prediction changes only the entry of its own
-/// particle.
+/// Each particle has one entry in the calendar: the earliest of its contacts with its neighbours, its exit from its
+/// neighbourhood, and its release from a soft contact. A prediction changes only the entry of its own particle.
 template <Body B>
 class Simulation final : public Engine<B::dimension> {
   static constexpr int dimension = B::dimension;
@@ -54,8 +53,8 @@ class Simulation final : public Engine<B::dimension> {
   std::string description() const override { return description_; }
 
  private:
-  /// Mean number of neighbours per particle. Fewer mean fewer predictions but more list updates; the cost of a
-  /// collision is flat around this number.
+  /// Mean number of neighbours per particle. A smaller number means fewer predictions but more list updates; the cost
+  /// of a collision is flat around this number.
   static constexpr double target_neighbors = dimension == 2 ? 7 : 14;
   static constexpr std::uint64_t events_per_particle_and_block = 128;
   static constexpr std::uint64_t min_events_per_block = 4096;
@@ -67,8 +66,8 @@ class Simulation final : public Engine<B::dimension> {
   void predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
                RunCounters& counters);
   struct Next {
-    double time;         // of the next event of the particle
-    double known_until;  // of its contacts
+    double time;         // time of the next event of the particle
+    double known_until;  // time up to which its contacts are known
   };
   template <PredictionScope scope>
   Next next_event(Index i, TimedEvent<B> known, std::span<Neighbor<B>> neighbors,
@@ -87,10 +86,10 @@ class Simulation final : public Engine<B::dimension> {
   Calendar calendar_;
   LargeVector<Event<B>> events_;
   EventPrefetcher<B> prefetcher_{state_, calendar_, events_};
-  double horizon_ = never;         // nothing later is predicted
-  std::uint64_t events_left_ = 0;  // until the block ends,
-  double longest_time_ =
-      never;  // of the clocks: then they are reset, or with growth the block ends
+  double horizon_ = never;         // events later than this are not predicted
+  std::uint64_t events_left_ = 0;  // events until the block ends
+  // When the clocks reach this time they are reset, or, if the bodies grow, the block ends.
+  double longest_time_ = never;
   bool predicted_ = false;
 };
 
@@ -102,7 +101,7 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
   soft_.load(configuration);
   executor_.begin_block();
   horizon_ = horizon - state_.base;
-  // Times are rounded as well as positions: meanwhile nothing moves farther than the extent.
+  // Times are rounded as well as positions: until the clocks are reset, nothing moves farther than the extent.
   longest_time_ = state_.fastest > 0 ? state_.extent / state_.fastest : never;
   events_.assign(state_.size(), {});
   events_left_ = std::max(events_per_particle_and_block * state_.size(), min_events_per_block);
@@ -150,8 +149,8 @@ void Simulation<B>::set_velocities(const Configuration<dimension>& configuration
   predict_all(horizon - state_.base, counters);
 }
 
-// Predicts all particles, testing every pair once. The predictions are independent of each other; the records, which
-// they share, change only afterwards.
+// Predicts all particles, testing every pair once. The predictions are independent of each other, since the records,
+// which they share, change only afterwards.
 template <Body B>
 void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
   horizon_ = horizon;
@@ -197,7 +196,7 @@ void Simulation<B>::predict(Index i, RunCounters& counters) {
   predict(i, {}, state_.neighbors(i), counters);
 }
 
-// With these neighbours; `known` is the first contact with the others.
+// Predicts particle i with these neighbours; `known` is its first contact with all others.
 template <Body B>
 void Simulation<B>::predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
                             RunCounters& counters) {
@@ -206,8 +205,8 @@ void Simulation<B>::predict(Index i, const TimedEvent<B>& known, std::span<Neigh
   calendar_.set(i, next.time);
 }
 
-// Sets the contact of particle i that is known next. Searches end where the
-// particle leaves its neighbourhood; closed forms do not, so that the contact is known beyond.
+// Sets the contact of particle i that is known next. Searches end where the particle leaves its neighbourhood; closed
+// forms do not, so the contact is known beyond that time.
 template <Body B>
 template <PredictionScope scope>
 typename Simulation<B>::Next Simulation<B>::next_event(Index i, TimedEvent<B> known,
@@ -271,7 +270,7 @@ void Simulation<B>::execute_contact(Index i, const Event<B>& event, RunCounters&
     executor_.collide_pair(i, event, counters);
   ++state_.version[i];
   if (i != j) ++state_.version[j];
-  state_.particles[i].known_until = state_.particles[j].known_until = never;  // neither is known
+  state_.particles[i].known_until = state_.particles[j].known_until = never;  // both are unknown
   predict(i, counters);
   if (i != j) predict(j, counters);
 }

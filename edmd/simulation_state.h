@@ -20,8 +20,8 @@ namespace vitrel {
 
 /// The particles of a simulation, their neighbour lists and the clock: what predictor and executor share.
 ///
-/// Times are relative to `base`, and every particle has its own clock. Particles are numbered so that
-/// neighbours are near in memory.
+/// Times are relative to `base`, and every particle has its own clock. Particles are numbered so that neighbours are
+/// near in memory.
 template <Body B>
 struct SimulationState {
   static constexpr int dimension = B::dimension;
@@ -31,13 +31,13 @@ struct SimulationState {
   using Shape = BaseShape<B>;
   using Image = NeighborImage<dimension>;
 
-  /// Disks and spheres: contacts are known in closed form.
+  /// Whether the bodies are disks or spheres, whose contacts are known in closed form.
   static constexpr bool is_round = RoundBody<B>;
-  /// They may do without lists.
+  /// Whether the bodies may use cells instead of neighbour lists.
   static constexpr bool has_cells = is_round && !grows<B>;
 
   using Particle = FlightRecord<B>;
-  /// The rotation of a sphere at a time; other bodies have theirs in the record.
+  /// The rotation of a round body at a time; the records of other bodies contain theirs.
   struct Rotation {
     Orientation<dimension> orientation;
     AngularVelocity<dimension> angular_velocity;
@@ -57,25 +57,25 @@ struct SimulationState {
 
   PeriodicBox<dimension> box;
   double growth_rate = 0;
-  double base = 0;        // simulated time when the clocks were at 0
-  double now = 0;         // since then
-  double collisions = 0;  // since then
+  double base = 0;        // simulated time at which the clocks were 0
+  double now = 0;         // time since `base`
+  double collisions = 0;  // number of collisions since `base`
   double extent = 0;      // magnitude of the coordinates
   double contact_gap = 0;
   MomentumFlux<dimension> flux;
-  double fastest = 0;              // speed of a surface, at the start of the block
+  double fastest = 0;              // largest speed of a surface, at the start of the block
   std::vector<Index> external_id;  // particle numbers of the configuration
   std::vector<std::int32_t> species;
-  std::vector<Shape> shapes;  // by type, at size 1
+  std::vector<Shape> shapes;  // shape of each type, at size 1
   std::vector<ParticleType> types;
   TypeIndex type_index;
   LargeVector<Particle> particles;
-  LargeVector<Rotation> rotations;  // of spheres
-  LargeVector<Tumbling> tumbling;   // of tumbling bodies
+  LargeVector<Rotation> rotations;  // for round bodies
+  LargeVector<Tumbling> tumbling;   // for tumbling bodies
   LargeVector<Shift<dimension>> image;
-  LargeVector<Index> version;  // changes of motion or image so far
+  LargeVector<Index> version;  // number of changes of motion or image so far
   std::optional<Neighborhoods<B>> neighborhoods;
-  std::optional<CellNeighbors<B>> cells;  // instead of neighbourhoods; of round bodies
+  std::optional<CellNeighbors<B>> cells;  // instead of neighbourhoods, for round bodies
 
   std::size_t size() const { return particles.size(); }
   const ParticleType& type(Index i) const { return types[type_index[i]]; }
@@ -88,7 +88,7 @@ struct SimulationState {
     if constexpr (grows<B>) return {1 + growth_rate * now, growth_rate};
     return {};
   }
-  /// The record of particle i, advanced to now.
+  /// Returns the record of particle i, advanced to now.
   Particle record_now(Index i) const {
     Particle record = particles[i];
     if constexpr (tumbles<B>) {
@@ -111,7 +111,7 @@ struct SimulationState {
   Vector position_at(Index i, double time) const {
     return particles[i].position + (time - particles[i].time) * particles[i].velocity;
   }
-  /// The motion of a particle that has been advanced to now, or a motion whose speeds are never exceeded in flight.
+  /// Sets the motion of a particle that has been advanced to now.
   void set_motion(Index i, const Motion<dimension>& motion) {
     Particle& particle = particles[i];
     particle.set_motion(motion);
@@ -120,6 +120,7 @@ struct SimulationState {
       particle.rotation.max_angular_speed = tumbling[i].top.max_speed();
     }
   }
+  /// Returns a motion whose speeds particle i never exceeds in flight.
   Motion<dimension> fastest_motion(Index i) const {
     Motion<dimension> motion = particles[i].motion();
     if constexpr (tumbles<B>)
@@ -130,39 +131,39 @@ struct SimulationState {
   Inertia<dimension> inertia_now(Index i) const {
     return in_space(type(i).inertia, particles[i].pose(), size_now().size);
   }
-  /// Motions with all rotations, as rough contacts need them, of a particle that has been advanced to now.
+  /// Motion and inertia with all rotations, as rough contacts need them, of a particle that has been advanced to now.
   Motion<dimension> full_motion(Index i) const;
   void set_full_motion(Index i, Motion<dimension> motion);
   Inertia<dimension> full_inertia_now(Index i) const;
   void advance_to_now(Index i) { particles[i] = record_now(i); }
-  /// Advances the record of a tumbling body if it has turned so far since then that the bound of the contact screen
-  /// becomes loose.
+  /// Advances the record of a tumbling body if the body has turned so far since the time of the record that the bound
+  /// of the contact screen becomes loose.
   void refresh(Index i) {
     if constexpr (tumbles<B>) {
-      constexpr double tolerance = 0.02;  // of the support function, in shortest semi-axes
+      constexpr double tolerance = 0.02;  // error of the support function, in shortest semi-axes
       const double turned = particles[i].rotation.max_angular_speed * (now - particles[i].time);
       if (0.5 * type(i).coefficients.max_tumbling * turned * turned >
           tolerance * shape(i).inradius())
         advance_to_now(i);
     }
   }
-  /// When the motion of particle i changed last, or it was advanced since.
+  /// Returns the time when the motion of particle i last changed, or when the particle was advanced since then.
   double last_change(Index i) const {
     if constexpr (tumbles<B>) return tumbling[i].since;
     return particles[i].time;
   }
-  /// From i to the image of its partner, both advanced to now.
+  /// Returns the vector from i to the image of its partner; both must have been advanced to now.
   Vector separation(Index i, const Image& partner) const {
     return particles[partner.other].position + box.translation(partner.shift()) -
            particles[i].position;
   }
-  /// Valid until the next call in the same thread.
+  /// Returns the neighbours of particle i, valid until the next call in the same thread.
   std::span<Neighbor<B>> neighbors(Index i) {
     if constexpr (has_cells)
       if (cells) return cells->of(i);
     return neighborhoods->of(i);
   }
-  /// When particle i leaves its neighbourhood, or its cell.
+  /// Returns the time when particle i leaves its neighbourhood, or its cell.
   double next_exit(Index i) const {
     if constexpr (has_cells)
       if (cells) return now + cells->exit_time(i, pose_now(i).position, particles[i].velocity);
@@ -174,7 +175,8 @@ struct SimulationState {
             double target_neighbors);
   void write(Configuration<dimension>& configuration) const;
   void set_velocities(const Configuration<dimension>& configuration);
-  /// Sets the clocks back to 0, since times are rounded as well as positions. Returns the time taken off.
+  /// Sets the clocks back to 0, since times are rounded as well as positions. Returns the time by which they were set
+  /// back.
   double reset_clocks();
   /// Renews the neighbourhood of a particle that leaves it. Returns the neighbours that it gains, valid until the next
   /// call in the same thread.
@@ -213,12 +215,12 @@ std::span<Neighbor<B>> SimulationState<B>::leave_neighborhood(Index i) {
   advance_to_now(i);
   const Shift<dimension> before = image[i];
   const std::span<Neighbor<B>> gained = renew_neighbors(i);
-  // Collisions scheduled with its old image are stale.
+  // Collisions scheduled with the old image are stale.
   if (image[i] != before) ++version[i];
   return gained;
 }
 
-// Wraps particle i into the box, which is where its neighbours are found. Returns those gained.
+// Wraps particle i into the box, where its neighbours are searched. Returns the neighbours that it gains.
 template <Body B>
 std::span<Neighbor<B>> SimulationState<B>::renew_neighbors(Index i) {
   Particle& particle = particles[i];
@@ -231,7 +233,8 @@ std::span<Neighbor<B>> SimulationState<B>::renew_neighbors(Index i) {
     }
   }
   box.wrap(particle.position, image[i]);
-  // Disks and spheres, which only predict the contacts with new neighbours, renew as cheaply as they would gain.
+  // A reference ahead of the particle does not pay for disks and spheres: they only predict contacts with new
+  // neighbours, so a renewal is cheap.
   const Pose<dimension> reference =
       is_round ? particle.pose() : neighborhoods->ahead_of(i, particle.pose(), fastest_motion(i));
   const std::size_t kept = neighborhoods->update(i, reference, size_now().size);

@@ -8,9 +8,8 @@
 #include "edmd/collision_executor.h"
 #include "edmd/soft/soft_contact.h"
 
-/// @file
-/// The collisions of soft particles in the event loop (soft/soft_contact.h): a policy that only disks and spheres
-/// compile.
+/// The collisions of soft particles in the event loop (soft/soft_contact.h). They are a policy, which is compiled for
+/// disks and spheres only.
 namespace vitrel {
 
 /// The policy of bodies that are always hard.
@@ -38,7 +37,7 @@ class NoSoftContacts {
   std::vector<Index> none_;
 };
 
-/// Pending releases and close pairs of soft disks or spheres, if the options ask for soft contacts.
+/// Pending releases and close pairs of soft disks or spheres, if the options enable soft contacts.
 template <Body B>
 class SoftContacts {
  public:
@@ -54,27 +53,27 @@ class SoftContacts {
   void load(const Configuration<dimension>& configuration);
   void write(Configuration<dimension>& configuration) const;
 
-  /// When a particle in contact takes its velocity after the contact.
+  /// Returns the time when a particle in contact takes its velocity after the contact.
   double release_time(Index i) const { return is_active() ? releases_[i].time : State::never; }
   void release(Index i);
-  /// As the state's, by this time.
+  /// Sets the release times back by `elapsed`, as SimulationState::reset_clocks does.
   void reset_clocks(double elapsed) {
     for (Release& release : releases_) release.time -= elapsed;
   }
 
-  /// Pairs that separate, still closer than the sum of their radii.
+  /// Returns whether the pair is separating but still closer than the sum of its radii.
   bool is_close_pair(Index i, const Image& partner) const {
     return is_active() && close_pairs_.contains(unwrapped_pair(i, partner).ascending());
   }
 
-  /// The collision of i with the partner of its event. Returns the particles to predict again.
+  /// Executes the collision of i with the partner of its event. Returns the particles to predict again.
   const std::vector<Index>& collide_pair(Index i, const Event<B>& event,
                                          CollisionExecutor<B>& executor, RunCounters& counters);
 
  private:
-  /// A grazing contact: particles that approach by less than the first fraction of the largest speed are not
-  /// collided, but separate at the second fraction. Both are far above the rounding of velocities and far
-  /// below physical relevance.
+  /// These are fractions of the largest speed. Particles that approach more slowly than the first, in a grazing
+  /// contact, do not collide but separate at the second. Both are far above the rounding of velocities and far below
+  /// physical relevance.
   static constexpr double grazing_speed = 1e-12, separation_speed = 1e-13;
 
   /// The pending release of a particle in contact.
@@ -88,7 +87,7 @@ class SoftContacts {
     Index i, j;
     Shift<dimension> unwrapped_shift;
 
-    /// The pair in ascending order of two distinct particles.
+    /// Returns the pair in ascending order; the particles must be distinct.
     UnwrappedPair ascending() const {
       return i < j ? *this : UnwrappedPair{j, i, -unwrapped_shift};
     }
@@ -111,7 +110,7 @@ class SoftContacts {
     return contact_pair(state_.shape(i).circumradius(), 1 / state_.type(i).inertia.inverse_mass,
                         state_.shape(j).circumradius(), 1 / state_.type(j).inertia.inverse_mass);
   }
-  /// The share of i in a change of the relative motion: reduced mass over its own mass.
+  /// Returns the share of i in a change of the relative motion: the reduced mass over its own mass.
   double share(Index i, Index j) const {
     const double mine = state_.type(i).inertia.inverse_mass;
     return mine / (mine + state_.type(j).inertia.inverse_mass);
@@ -133,9 +132,9 @@ class SoftContacts {
   State& state_;
   const EngineOptions& options_;
   std::vector<Release> releases_;
-  std::map<UnwrappedPair, double> close_pairs_;  // minimum distances; some may have separated
+  std::map<UnwrappedPair, double> close_pairs_;  // minimum distances; some pairs may have separated
   std::size_t close_pairs_limit_ = 0;            // size that triggers a clean-up
-  std::vector<Index> changed_;                   // by the current event
+  std::vector<Index> changed_;                   // particles changed by the current event
 };
 
 template <Body B>
@@ -144,8 +143,8 @@ using SoftContactPolicy = std::conditional_t<std::same_as<B, Disk> || std::same_
 
 // ---------------------------------------------------------------------------------------------------
 
-// A third particle that hits one of a pair in contact collides with it as if the contact were over. New
-// predictions decide whether they still approach.
+// If a third particle hits one of a pair in contact, the contact ends early, and new predictions decide whether the two
+// still approach.
 template <Body B>
 auto SoftContacts<B>::collide_pair(Index i, const Event<B>& event, CollisionExecutor<B>& executor,
                                    RunCounters& counters) -> const std::vector<Index>& {
@@ -194,16 +193,16 @@ void SoftContacts<B>::begin_collision(Index i, const Image& partner, CollisionEx
   begin_contact(unwrapped, after, state_.now + restitution.duration);
 }
 
-// Approach speeds below the accuracy of velocities: the pair is forced to separate, since otherwise it would collide
-// forever. Each such event moves a cluster that has lost all its speed by a fixed step towards a state in which all
-// pairs separate, so the sequence ends.
+// The approach speed is below the accuracy of velocities. The pair is forced to separate, since otherwise it would
+// collide forever. Each such event moves a cluster that has lost all its speed by a fixed step towards a state in which
+// all pairs separate, so the sequence ends.
 template <Body B>
 void SoftContacts<B>::separate_grazing(Index i, Index j, const Vector& change) {
   state_.particles[i].velocity -= share(i, j) * change;
   state_.particles[j].velocity += share(j, i) * change;
 }
 
-// Both are already at their final positions of the contact and move with their centre of mass.
+// Both particles are already at their positions at the end of the contact and move with their centre of mass.
 template <Body B>
 void SoftContacts<B>::begin_contact(const UnwrappedPair& pair,
                                     const RelativeMotion<dimension>& after, double end) {
@@ -240,8 +239,8 @@ void SoftContacts<B>::displace(Index i, const Vector& displacement) {
   while (!(state_.next_exit(i) > state_.now)) state_.leave_neighborhood(i);
 }
 
-// No third particle is closer than contact, or closer than before the displacement. In a small box this includes
-// other images of the partner and own images.
+// Returns whether every third particle is at least as far away as contact, or at least as far as before the
+// displacement. In a small box third particles include other images of the partner and images of the particle itself.
 template <Body B>
 bool SoftContacts<B>::has_clearance(Index i, const UnwrappedPair& pair, const Vector& displacement1,
                                     const Vector& displacement2) const {

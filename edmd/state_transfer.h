@@ -12,12 +12,13 @@
 #include "edmd/simulation_state.h"
 
 /// @file
-/// How the state of a simulation begins from a configuration, is written to one, and takes its velocities from one.
+/// Functions that begin the state of a simulation from a configuration, write it to one, and take its velocities from
+/// one.
 namespace vitrel {
 
 namespace detail {
 
-/// The shape at size 1 in the form that the simulation takes.
+/// Returns the shape at size 1 in the form that the simulation uses.
 template <class Shape>
 Shape shape_from(const ParticleShape<Shape::dimension>& of_particle) {
   if constexpr (std::is_same_v<Shape, ParticleShape<Shape::dimension>>)
@@ -25,7 +26,7 @@ Shape shape_from(const ParticleShape<Shape::dimension>& of_particle) {
   else
     return {of_particle.circumradius()};
 }
-/// The shape of the particle that the simulation has in its form.
+/// Returns the particle shape of a shape in the form that the simulation uses.
 template <class Shape>
 ParticleShape<Shape::dimension> particle_shape(const Shape& shape) {
   if constexpr (std::is_same_v<Shape, ParticleShape<Shape::dimension>>)
@@ -34,7 +35,8 @@ ParticleShape<Shape::dimension> particle_shape(const Shape& shape) {
     return round_shape<Shape::dimension>(shape.radius);
 }
 
-/// The magnitude of an angle, which determines its rounding error: unwrapped angles grow, quaternions stay normalised.
+/// Returns the magnitude of an angle, which determines its rounding error: unwrapped angles grow, quaternions stay
+/// normalised.
 inline double angle_magnitude(double angle) {
   return std::abs(angle);
 }
@@ -213,7 +215,8 @@ auto SimulationState<B>::full_inertia_now(Index i) const -> Inertia<dimension> {
   return in_space(own, particles[i].pose(), 1);
 }
 
-// The angular velocity of a spheroid with the part along its axis multiplied by I⊥/I∥, or divided.
+// Returns the angular velocity of a spheroid with the component along its axis multiplied by I⊥/I∥, or divided by it
+// unless `to_true`.
 template <Body B>
 auto SimulationState<B>::with_scaled_spin(Index i, const Vector& angular_velocity,
                                           bool to_true) const -> Vector

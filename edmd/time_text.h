@@ -4,7 +4,7 @@
 
 namespace vitrel {
 
-/// "time 1.5" in messages. Times below 0 are those before the first sample.
+/// Formats a time as "time 1.5" for messages. Times below 0 belong to the equilibration before the first sample.
 inline std::string time_text(double time) {
   return "time " + std::to_string(time) + (time < 0 ? " (of the equilibration)" : "");
 }

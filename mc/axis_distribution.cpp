@@ -12,7 +12,7 @@ constexpr double smallest_moment = 1e-9;
 constexpr double moment_precision = 1e-13;
 constexpr int max_steps = 200;  // about 50 suffice
 
-/// Carlson's R_D(x, y, z) by duplication; the series is exact to ε⁶ < 1e-18 of the value.
+/// Returns Carlson's R_D(x, y, z) by duplication; the series is exact to ε⁶ < 1e-18 of the value.
 double carlson_r_d(double x, double y, double z) {
   constexpr double epsilon = 1e-3;
   double sum = 0, factor = 1;
@@ -36,7 +36,7 @@ double carlson_r_d(double x, double y, double z) {
   }
 }
 
-/// Standard deviations of x along the principal axes, up to a common factor.
+/// Returns the standard deviations of x along the principal axes, up to a common factor.
 Vec2 deviations(const Vec2& moments) {
   return moments;
 }
@@ -44,7 +44,8 @@ Vec3 deviations(const Vec3& moments) {
   return angular_gaussian_variances(moments).cwiseSqrt();
 }
 
-/// The eigenvalues of a symmetric matrix, and its eigenvectors as columns, by Jacobi's rotations.
+/// Diagonalises a symmetric matrix by Jacobi rotations, so that it holds the eigenvalues; the columns of `vectors`
+/// become its eigenvectors.
 template <class Matrix>
 void diagonalise(Matrix& matrix, Matrix& vectors) {
   constexpr int n = Matrix::RowsAtCompileTime, max_sweeps = 20;  // about 5 suffice

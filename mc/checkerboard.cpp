@@ -9,8 +9,8 @@ namespace vitrel {
 
 namespace {
 
-/// Wider: fewer moves end at a border. Narrower: more parallelism in a small system, and a domain fits the
-/// first-level cache.
+/// With wider domains fewer moves end at a border. With narrower ones a small system has more parallelism, and a domain
+/// fits into the first-level cache.
 constexpr std::size_t min_cells_per_domain = 4;
 
 /// Widens cells so that rounding of positions does not matter.
@@ -18,7 +18,7 @@ constexpr double rounding_margin = 1 + 1e-9;
 
 template <int Dim>
 std::size_t count_cells(double length, double reach, std::size_t particles) {
-  // Many more cells than particles are useless.
+  // Many more cells than particles would be useless.
   const double max_cells = std::ceil(root(4 * static_cast<double>(particles), Dim)) + 1;
   return static_cast<std::size_t>(std::clamp(std::floor(length / reach), 1.0, max_cells));
 }

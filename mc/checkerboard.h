@@ -12,26 +12,26 @@
 
 namespace vitrel {
 
-/// A checkerboard decomposition: a periodic box divided into cells, and the cells into rectangular coloured domains, so
-/// that particles of several domains can be moved in parallel. In two or three dimensions.
+/// A checkerboard decomposition in two or three dimensions: a periodic box is divided into cells, and the cells into
+/// rectangular coloured domains, so that particles of several domains can be moved in parallel.
 ///
 /// Cells are at least as wide as the reach of the particles, or as the box if that is shorter: everything within reach
 /// of a point lies in its cell or in a near one. Along each direction there is one domain, or an even number of them,
-/// each at least four cells wide. Two domains of one colour are separated by one of another colour, wider than the
-/// reach: their particles do not interact. The cells are fixed; `shift` moves the borders of the domains by whole
-/// cells. Since domains are wider than a cell, no border stays fixed.
+/// each at least four cells wide. Between two domains of one colour lies a domain of another colour that is wider than
+/// the reach, so their particles do not interact. The cells are fixed; `shift` moves the borders of the domains by
+/// whole cells. Since domains are wider than a cell, no border stays fixed.
 template <int Dim>
 class Checkerboard {
  public:
-  /// For about `particles` particles, which interact at distances up to `reach`.
+  /// Divides the box for about `particles` particles, which interact at distances up to `reach`.
   Checkerboard(const PeriodicBox<Dim>& box, double reach, std::size_t particles);
 
-  /// Moves the borders by a random number of cells, uniform and independent.
+  /// Moves the borders along each direction by a random number of cells, uniform and independent.
   void shift(Stream& draw);
 
-  /// Column, row and layer.
+  /// The column, row and layer of a cell.
   using Cell = std::array<int, Dim>;
-  /// The cell of a wrapped position.
+  /// Returns the cell of a wrapped position.
   Cell cell_of(const Vec<Dim>& position) const {
     Cell cell;
     for (int k = 0; k < Dim; ++k) cell[k] = lines_[k].cell_of(position[k]);
@@ -47,25 +47,26 @@ class Checkerboard {
     return index;
   }
 
-  /// A column, row or layer near another, as a periodic image.
+  /// A column, row or layer near another one, as a periodic image.
   struct NearLine {
     int cell;
     double translation;
-    double begin;  ///< its start, relative to the start of the other
+    double begin;  ///< start, relative to the start of the other one
   };
-  /// The columns (rows, layers) near those of a cell, nearest first: each image within reach once.
+  /// Returns the columns (rows, layers) near that of a cell, nearest first; each image within reach occurs once.
   std::span<const NearLine> near(const Cell& cell, int direction) const {
     return lines_[direction].near(cell[direction]);
   }
-  /// A translation by whole boxes. No Vec: vectors that are written by component and read as a whole stall the processor.
+  /// A translation by whole boxes. It is no Vec, since vectors that are written by component and read as a whole stall
+  /// the processor.
   using Translation = std::array<double, Dim>;
-  /// Calls visit(index of a cell, translation) for the cells near one, nearest first, until one returns false; the
-  /// result tells whether all were visited.
+  /// Calls visit(index of a cell, translation) for the cells near `cell`, nearest first, until a call returns false.
+  /// Returns whether all were visited.
   template <class Visit>
   VITREL_INLINE bool for_each_near(const Cell& cell, Visit&& visit) const {
     return walk<0>(cell, 0, {}, visit);
   }
-  /// The lower corner of a cell, and the size of cells.
+  /// `corner` returns the lower corner of a cell, and `cell_size` the size of all cells.
   Vec<Dim> corner(const Cell& cell) const {
     Vec<Dim> corner;
     for (int k = 0; k < Dim; ++k) corner[k] = lines_[k].begin_of(cell[k]);
@@ -86,7 +87,7 @@ class Checkerboard {
       domain = domain * lines_[k].domains() + lines_[k].domain_of(cell[k]);
     return domain;
   }
-  /// Domains of one colour; 1, 2, 4 or 8 colours.
+  /// Returns the domains of each colour; there are 1, 2, 4 or 8 colours.
   std::span<const std::vector<std::size_t>> colours() const { return colours_; }
 
   /// Calls visit(cell index) for the cells of a domain.
@@ -109,7 +110,7 @@ class Checkerboard {
     std::size_t cells() const { return domain_of_.size(); }
     int cell_of(double x) const {
       const int cell = static_cast<int>((x + half_) * cells_per_length_);
-      return cell < last_ ? cell : last_;  // rounding at the border of the box
+      return cell < last_ ? cell : last_;  // rounding at the border of the box may exceed it
     }
     std::span<const NearLine> near(int cell) const {
       return {near_.data() + static_cast<std::size_t>(cell) * images_, images_};
@@ -118,7 +119,7 @@ class Checkerboard {
     double begin_of(int cell) const { return cell / cells_per_length_ - half_; }
     std::size_t domains() const { return domains_; }
     std::size_t domain_of(int cell) const { return domain_of_[static_cast<std::size_t>(cell)]; }
-    // The first cell of a domain, counted from the origin; and the cell with such a number.
+    // `begin` is the first cell of a domain, counted from the origin; `shifted` is the cell with such a number.
     std::size_t begin(std::size_t domain) const { return domain * cells() / domains_; }
     int shifted(std::size_t cell) const { return static_cast<int>((origin_ + cell) % cells()); }
 
@@ -137,7 +138,8 @@ class Checkerboard {
     return all;
   }
 
-  // The cells near one along direction k and later; `before` and `translation` are those along the directions before.
+  // Visits the cells near `cell` along direction k and later ones; `before` and `translation` belong to the directions
+  // before k.
   template <int k, class Visit>
   VITREL_INLINE bool walk(const Cell& cell, std::size_t before, Translation translation,
                           Visit& visit) const {

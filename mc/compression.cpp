@@ -16,7 +16,7 @@ double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Whether the packing fraction has stopped rising.
+/// Returns whether the packing fraction has stopped rising.
 bool has_converged(const std::vector<double>& all) {
   constexpr std::size_t least = 4000;
   constexpr double rise = 1e-3;

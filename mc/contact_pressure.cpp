@@ -13,11 +13,11 @@ namespace vitrel {
 
 namespace {
 
-// The largest value of twice the window.
+// The maximum of twice the window.
 constexpr double max_width = 0.75;
 constexpr double pairs_per_particle = 1.5;
 
-// μ^D − 1 of all pairs for which that is below the window.
+// Returns μ^D − 1 of all pairs for which it is below the window.
 template <int Dim>
 std::vector<double> contact_excesses(const Configuration<Dim>& configuration, double window) {
   const double reach = root(1 + window, Dim);
@@ -37,7 +37,7 @@ std::vector<double> contact_excesses(const Configuration<Dim>& configuration, do
   return excesses;
 }
 
-// Half the width with the target number of pairs.
+// Returns half the width that holds the target number of pairs.
 template <int Dim>
 double choose_window(const Configuration<Dim>& configuration) {
   std::vector<double> excesses = contact_excesses(configuration, max_width);
@@ -49,7 +49,7 @@ double choose_window(const Configuration<Dim>& configuration) {
   return 0.5 * excesses[target];
 }
 
-// K(y)/w
+// Returns K(y)/w.
 double intercept_weight(double excess, double window) {
   const double y = excess / window;
   return (16 + y * (-120 + y * (240 - 140 * y))) / window;

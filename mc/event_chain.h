@@ -19,10 +19,10 @@
 
 namespace vitrel {
 
-/// Targets for the tuning of event chains, whose defaults are optimal (docs/how-it-works/monte-carlo.md), and exchanges
-/// of places.
+/// Options of event chains: targets of their tuning, whose defaults are optimal (docs/how-it-works/monte-carlo.md), and
+/// exchanges of places.
 struct EventChainOptions {
-  double contacts = 100;  ///< per chain
+  double contacts = 100;  ///< contacts per chain
   double rotations = 1;   ///< trial rotations per contact; no effect if all are round
   ExchangeOptions exchanges = {};
 };
@@ -34,78 +34,79 @@ struct ChainCounts {
   std::uint64_t searches = 0;   ///< free paths searched; a path also ends at each cell border
   std::uint64_t rotations_tried = 0, rotations_accepted = 0;
   ExchangeCounts exchanges;
-  double length = 0;  ///< Σ l
+  double length = 0;  ///< Σ l over the chains
   double ahead = 0;   ///< Σ (r_j − r_i)·e over the contacts
 
-  /// Z, if there were chains.
+  /// Returns Z; there must have been chains.
   double compressibility() const { return 1 + ahead / length; }
 };
 
-/// The state of event chains: together with the configuration, sufficient to continue with bit-identical results.
+/// The state of event chains, which together with the configuration suffices to continue with bit-identical results.
 struct ChainState {
   std::uint64_t next_sweep = 0;  ///< number of the next sweep, which selects its random stream
-  std::uint64_t sweeps = 0;      ///< completed
-  // The plan of a sweep; not yet chosen if there are no chains.
+  std::uint64_t sweeps = 0;      ///< number of completed sweeps
+  // The plan of a sweep; it is not yet chosen if `chains` is 0.
   std::uint64_t chains = 0, rotations = 0;
-  double length = 0;  ///< of each chain
+  double length = 0;  ///< length of each chain
   StepSize rotation{0.1};
   ChainCounts counts;
-  std::uint64_t tuned_chains = 0, tuned_contacts = 0;  ///< at the last adaptation
+  std::uint64_t tuned_chains = 0, tuned_contacts = 0;  ///< counts at the last adaptation
 };
 
 /// Event-chain Monte Carlo of hard bodies at constant N, box and temperature, on one thread.
 ///
-/// A chain: a random particle moves forwards along x, y or, in space, z, each with equal probability, until it touches
-/// another (the free paths of resting_bodies.h, or round_free_path_batch.h). That one continues in the
-/// same direction, until the paths add up to the length of the chain. Nothing is rejected. Orientations change by trial
-/// rotations, as in sampler.h.
+/// In a chain, a random particle moves forwards along x, y or, in space, z, each with equal probability, until it
+/// touches another one (by the free paths of resting_bodies.h, or round_free_path_batch.h). The other one continues in
+/// the same direction, until the paths add up to the length of the chain. Nothing is rejected. Orientations change by
+/// trial rotations, as in sampler.h.
 ///
 /// One sweep is a fixed number of chains of one length, with trial rotations of random particles spread evenly among
-/// them, and exchanges of places (exchanges.h) at its end; `tune` chooses them so that a sweep has about N contacts.
-/// Particles are sorted into cells at the start of a sweep. Sweep s draws from the stream (seed, trial_moves, s, 0):
-/// chains that start from a stored state continue with bit-identical results.
+/// them, and exchanges of places (exchanges.h) at its end; `tune` chooses number and length of the chains so that a
+/// sweep has about N contacts. Particles are sorted into cells at the start of a sweep. Sweep s draws from the stream
+/// (seed, trial_moves, s, 0), so chains that start from a stored state continue with bit-identical results.
 ///
-/// Uniform sampling of all hard states. Divide a chain of length l along x into steps ε → 0. Each of the N lifted
-/// states (hard state, moving particle i) has one successor: i moved by ε or, if it would then overlap j, the same
-/// state with j moving. Conversely each has one predecessor: i moved back by ε or, if it would then overlap k behind
-/// it, the same state with k moving. At fixed orientations a contact depends only on the difference of the two
-/// positions, so j blocks i if and only if i blocks j in the opposite direction. A chain therefore maps lifted states
-/// one to one, and conserves volume (the flow is a translation between contacts): the uniform distribution is invariant
-/// (global balance), since particle and direction are drawn uniformly and independently of the state. Rotations satisfy
-/// detailed balance. This does not prove ergodicity; tests compare with independently drawn states.
+/// All hard states are sampled uniformly, for the following reason. Divide a chain of length l along x into steps
+/// ε → 0. Each of the N lifted states (hard state, moving particle i) has one successor: i moved by ε or, if it would
+/// then overlap j, the same state with j moving. Conversely each has one predecessor: i moved back by ε or, if it would
+/// then overlap k behind it, the same state with k moving. At fixed orientations a contact depends only on the
+/// difference of the two positions, so j blocks i if and only if i blocks j in the opposite direction. A chain
+/// therefore maps lifted states one to one, and conserves volume (the flow is a translation between contacts). Since
+/// particle and direction are drawn uniformly and independently of the state, the uniform distribution is invariant
+/// (global balance). Rotations satisfy detailed balance. This does not prove ergodicity; tests compare with
+/// independently drawn states.
 ///
 /// The pressure follows from the contacts (michel2014):
 ///
 ///     Z = βP/ρ = 1 + ⟨Σ (r_j − r_i)·e⟩/l,
 ///
-/// the sum over the contacts of a chain along e.
+/// where the sum runs over the contacts of a chain along e.
 ///
-/// In a row of particles jammed across the whole box a chain would have infinitely many contacts. A chain is cut short
-/// after 1000 times the target number, which violates balance and is counted.
+/// In a row of particles jammed across the whole box, a chain would have infinitely many contacts. A chain is therefore
+/// cut short after 1000 times the target number, which violates balance and is counted.
 ///
-/// Contact is at 1.25 hard-core margins (hard_core.h) or slightly more (see the free paths), and rotations keep
-/// one margin, so the margin always holds. A particle's own images move along with it.
-/// Sources: bernard2009; for ellipses and all potentials that depend on differences michel2014.
+/// The gap at contact is 1.25 hard-core margins (hard_core.h) or slightly more (see the free paths), and rotations keep
+/// one margin, so the margin always holds. A particle's own images move along with it. Sources: bernard2009, and
+/// michel2014 for ellipses and all potentials that depend on differences.
 template <class Shape>
 class EventChain {
  public:
   static constexpr int Dim = Shape::dimension;
-  /// The configuration must be hard, with wrapped positions, and outlive this object. Meanwhile nothing else may move
-  /// or rotate particles.
+  /// The configuration must be hard, with wrapped positions, and outlive this object. As long as this object is used,
+  /// nothing else may move or rotate particles.
   EventChain(Configuration<Dim>& configuration, const EventChainOptions& options,
              std::uint64_t seed, const ChainState& state = {});
 
   void sweep();
 
-  /// Adapts the plan by the counts since the last adaptation, or waits for more: contacts and rotations as requested,
-  /// about N contacts per sweep, and 0.35 of the rotations accepted. Chains are short at first, and their length at
-  /// most doubles each time. Belongs to equilibration.
+  /// Adapts the plan to the counts since the last adaptation, unless they are too few. Chains then have the requested
+  /// contacts and rotations, a sweep has about N contacts, and 0.35 of the rotations are accepted. Chains are short at
+  /// first, and their length at most doubles each time. Only an equilibration may call this.
   void tune();
 
-  /// The plan of a sweep. Only `tune` and `set_plan` change it.
+  /// The plan of a sweep, which only `tune` and `set_plan` change.
   struct Plan {
     std::uint64_t chains;
-    double length;  ///< of every chain
+    double length;  ///< length of every chain
     std::uint64_t rotations;
     double rotation_step;
   };
@@ -114,7 +115,7 @@ class EventChain {
   }
   void set_plan(const Plan& plan);
 
-  /// The state given at construction, advanced by the work since.
+  /// Returns the state given at construction, advanced by the work since.
   const ChainState& state() const { return state_; }
   const ChainCounts& counts() const { return state_.counts; }
 
@@ -124,7 +125,7 @@ class EventChain {
   using Line = typename Checkerboard<Dim>::NearLine;
   using Cells = typename HardParticles<Shape>::Cells;
 
-  /// Initial length of chains, in √(V/N): few contacts at any density.
+  /// Initial length of chains in (V/N)^(1/D): they have few contacts at any density.
   static constexpr double initial_length = 1e-3;
   /// A chain is cut short after its target number of contacts times this factor.
   static constexpr double max_contact_factor = 1000;
@@ -134,8 +135,8 @@ class EventChain {
     draw.fill({&words, 1});
     return words;
   }
-  /// Calls visit(near, translation) for the cells near one, along the directions from k to that of the path, as far as
-  /// `is_beside` holds for their columns, rows and layers.
+  /// Calls visit(near, translation) for the cells near `cell`, along the directions from k up to that of the path, in
+  /// those columns, rows and layers for which `is_beside` holds.
   template <int k, int direction, class Keep, class Visit>
   static void for_each_beside(const Checkerboard<Dim>& board, const Cell& cell,
                               const Keep& is_beside, Cell& near, Translation& translation,
@@ -192,7 +193,7 @@ void EventChain<Shape>::set_plan(const Plan& plan) {
   state_.rotation.size = plan.rotation_step;
 }
 
-/// Rotations of random particles, until there are as many as `goal`.
+/// Tries rotations of random particles until `done` reaches `goal`.
 template <class Shape>
 void EventChain<Shape>::rotate_some(std::uint64_t& done, std::uint64_t goal, Stream& draw) {
   for (; done < goal; ++done) {
@@ -289,7 +290,7 @@ VITREL_INLINE void EventChain<Shape>::for_each_beside(const Checkerboard<Dim>& b
   }
 }
 
-// Stops just beyond the border of the cell, where other particles come within reach.
+// The path ends at the latest just beyond the border of the cell, where other particles come within reach.
 template <class Shape>
 template <int direction, class PathBatch>
 FreePath EventChain<Shape>::next_contact(std::size_t i, double remaining) const {

@@ -37,7 +37,7 @@ double shrink_to_contact(const Configuration<Dim>& configuration, double lowest)
   for_each_pair(configuration, 1 / lowest, [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
     const ParticleShape<Dim>& one = configuration.shape[i];
     const ParticleShape<Dim>& two = configuration.shape[j];
-    // The circumcircles touch at a smaller factor than the largest found: this pair cannot matter.
+    // The circumcircles touch at a smaller factor than the largest one found, so this pair cannot matter.
     const double circles = one.circumradius() + two.circumradius();
     if (circles * circles < factor * factor * squared_norm(d)) return;
     const double f = perram_wertheim(one, orientation_of(configuration.pose(i)), two,

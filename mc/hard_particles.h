@@ -20,14 +20,14 @@
 
 namespace vitrel {
 
-/// The particles of a configuration, sorted into the cells of a checkerboard, and the moves that change them: each is
-/// made if all particles then keep the hard-core margin (hard_core.h) to each other, and otherwise leaves everything as
-/// it is. Whoever proposes moves with the right probabilities samples hard states.
+/// The particles of a configuration, sorted into the cells of a checkerboard, and the moves that change them. A move is
+/// made if all particles then keep the hard-core margin (hard_core.h) to each other; otherwise it leaves everything as
+/// it is. A caller that proposes moves with the right probabilities samples hard states.
 ///
 /// Cells have no capacity limit. Overlaps are decided by proofs (ellipse_overlap_batch.h, ellipsoid_overlap_batch.h,
 /// pair_overlaps.h) that depend on the state only, to the rounding of the margin.
 ///
-/// `Shape` is constructed from the shape of the configuration, and has the same radii, roundness and `fits_into`;
+/// `Shape` is constructed from the shape of the configuration, and has the same radii, roundness and `fits_into`; its
 /// overlaps and free paths are its own (resting_bodies.h).
 template <class Shape>
 class HardParticles {
@@ -40,16 +40,17 @@ class HardParticles {
   using Index = typename Cells::Index;
   using FreeList = typename Cells::FreeList;
 
-  /// Gap, in margins, at which event chains stop: so far above one that rounding does not matter.
+  /// Gap at which event chains stop, in margins. It exceeds one margin so far that rounding does not matter.
   static constexpr double contact_margins = 1.25;
 
-  /// The configuration must be hard, with wrapped positions, and outlive this object. Meanwhile nothing else may move
-  /// particles, or change shapes except to smaller ones.
+  /// The configuration must be hard, with wrapped positions, and outlive this object. As long as this object is used,
+  /// nothing else may move particles, or change shapes except to smaller ones.
   explicit HardParticles(Configuration<Dim>& configuration);
 
   /// Sorts all particles into cells, in the order of their numbers. Shapes must not have shrunk since construction.
   void arrange();
-  /// The same, on this number of threads, with free groups for each domain: particles then may not leave their domain.
+  /// Sorts all particles into cells on this number of threads, with free groups for each domain: particles then may not
+  /// leave their domain.
   void arrange_by_domain(int threads);
 
   Configuration<Dim>& configuration() { return configuration_; }
@@ -60,17 +61,17 @@ class HardParticles {
   const Cells& cells() const { return cells_; }
   const std::vector<Body>& bodies() const { return bodies_; }
   double margin() const { return margin_; }
-  /// The largest semi-axis of all.
+  /// Returns the largest semi-axis of all particles.
   double largest() const { return largest_; }
   const Vec<Dim>& half_box() const { return half_box_; }
-  /// The particles that a domain held when they were arranged by domain.
+  /// Returns the particles that a domain held when they were arranged by domain.
   std::span<const Index> members(std::size_t domain) const {
     return {order_.data() + domain_begin_[domain], order_.data() + domain_begin_[domain + 1]};
   }
-  /// The free groups of a domain, or of all together (0).
+  /// Returns the free groups of a domain; after `arrange`, list 0 holds those of all domains.
   FreeList& free_list(std::size_t domain) { return free_lists_[domain]; }
 
-  /// The body of particle i from where it is read fastest.
+  /// Returns the body of particle i from where it is read fastest.
   decltype(auto) body_of(std::size_t i) const {
     if constexpr (requires(const typename Bodies::Batch batch) { batch.body(0); })
       return cells_[cells_.group_index(i)].body(cells_.lane_of(i));
@@ -78,19 +79,22 @@ class HardParticles {
       return (bodies_[i]);
   }
 
-  /// Whether particle i keeps the margin to all others at this position in this cell. Its own images move along.
+  /// Returns whether particle i keeps the margin to all others at this position in this cell. Its own images move
+  /// along.
   VITREL_INLINE bool is_clear_at(std::size_t i, const Vec<Dim>& position, const Cell& cell,
                                  OverlapTestCounts& tests) const {
     return clear_of_others<Shape>(*board_, cells_, i, body_of(i), bodies_, margin_, position, cell,
                                   tests);
   }
-  /// Whether particle i would keep this margin to all others and its own images with this body, where it is.
+  /// Returns whether particle i, where it is but with this body, keeps this margin to all others and its own images.
   bool is_clear_as(std::size_t i, const Body& body, double margin, OverlapTestCounts& tests) const;
 
-  /// If all particles are round: a radius with which particle i keeps the margin where it is, the largest one to rounding.
+  /// Returns the largest radius, to rounding, with which particle i keeps the margin where it is. All particles must be
+  /// round.
   double free_radius(std::size_t i) const;
 
-  /// Moves particle i to a wrapped position in this cell, which has crossed the borders of the box so often.
+  /// Moves particle i to a wrapped position in this cell; `crossed` counts how often it has crossed the borders of the
+  /// box.
   void move(std::size_t i, const Vec<Dim>& position, const Shift<Dim>& crossed, std::size_t cell,
             FreeList& free_list) {
     configuration_.position[i] = position;
@@ -100,14 +104,14 @@ class HardParticles {
     else
       change_cell(i, position, cell, free_list);
   }
-  /// Turns particle i by an angle (the first component), in space by a vector in its own frame.
+  /// Turns particle i by an angle (the first component of `turn`) or, in space, by a vector in its own frame.
   bool try_turn(std::size_t i, const Vec<Dim>& turn, OverlapTestCounts& tests);
-  /// Exchanges the positions and orientations of particles i and j; with domains, of one.
+  /// Exchanges the positions and orientations of particles i and j, which must be of one domain if there are domains.
   bool try_exchange(std::size_t i, std::size_t j, OverlapTestCounts& tests);
-  /// The same without a test.
+  /// Exchanges the positions and orientations of particles i and j without a test.
   void exchange(std::size_t i, std::size_t j);
-  /// Replaces the shape of particle i if it then keeps twice the margin to all others (twice, so that a later scaling of
-  /// all lengths keeps the margin in spite of rounding).
+  /// Replaces the shape of particle i if it then keeps twice the margin to all others. The factor of two ensures that a
+  /// later scaling of all lengths keeps the margin in spite of rounding.
   bool try_reshape(std::size_t i, const ParticleShape<Dim>& shape, OverlapTestCounts& tests);
   /// Scales the sides of the box and all positions by these factors; shapes and orientations stay. Tests every pair
   /// twice, on this number of threads.
@@ -127,7 +131,7 @@ class HardParticles {
   bool is_hard(int threads, OverlapTestCounts& tests) const;
 
   Configuration<Dim>& configuration_;
-  const double smallest_;  // inradius
+  const double smallest_;  // smallest inradius
   double largest_, margin_;
   Vec<Dim> half_box_;
   double shortest_side_;
@@ -135,10 +139,10 @@ class HardParticles {
   std::optional<Checkerboard<Dim>> board_;
   Cells cells_;
   std::vector<Index> order_;               // particles, domain by domain and cell by cell
-  std::vector<Index> cell_of_;             // of every particle, while sorting
-  std::vector<Index> begin_;               // of every cell in order_, while sorting
-  std::vector<std::size_t> domain_begin_;  // of every domain in order_
-  std::vector<FreeList> free_lists_;       // of every domain
+  std::vector<Index> cell_of_;             // cell of every particle, while sorting
+  std::vector<Index> begin_;               // begin of every cell in order_, while sorting
+  std::vector<std::size_t> domain_begin_;  // begin of every domain in order_
+  std::vector<FreeList> free_lists_;       // one for every domain
 };
 
 template <int Dim>
@@ -161,8 +165,9 @@ void HardParticles<Shape>::fit_box() {
   fit_board();
 }
 
-/// Cells are as wide as the maximum distance of centres at which two particles must be tested, 2 (a + margin), or at
-/// which a chain may stop (ellipse_free_path_batch.h, ellipsoid_free_path_batch.h), which is more.
+/// Cells are as wide as the maximum distance of centres at which a chain may stop (ellipse_free_path_batch.h,
+/// ellipsoid_free_path_batch.h). That is more than 2 (a + margin), the maximum distance at which two particles must be
+/// tested.
 template <class Shape>
 void HardParticles<Shape>::fit_board() {
   const double enlarged = 1 + 2 * contact_margins * margin_ / smallest_;
@@ -190,7 +195,7 @@ void HardParticles<Shape>::arrange_by_domain(int threads) {
   each_in_parallel(board_->domains(), threads, [&](std::size_t domain) { fill_domain(domain); });
 }
 
-// Counting sort of all particles into the cells.
+// Sorts all particles into the cells by counting.
 template <class Shape>
 void HardParticles<Shape>::sort() {
   const std::size_t n = configuration_.size();
@@ -218,7 +223,7 @@ void HardParticles<Shape>::fill_domain(std::size_t domain) {
   board_->for_each_cell(domain, [&](std::size_t cell) { cells_.clear(cell); });
   free_lists_[domain] = cells_.free_groups(domain_begin_[domain], domain_begin_[domain + 1]);
   for (const std::size_t i : members(domain)) {
-    // It may have shrunk.
+    // The particle may have shrunk.
     if (const Shape shape(configuration_.shape[i]); bodies_[i].shape != shape)
       bodies_[i] = Bodies::body(shape, orientations(configuration_)[i]);
     cells_.insert(i, cell_of_[i], bodies_[i], configuration_.position[i], free_lists_[domain]);
@@ -254,7 +259,7 @@ double HardParticles<Shape>::free_radius(std::size_t i) const {
   return std::min(hmin(least), 0.5 * shortest_side_) - margin_;
 }
 
-// Whether particle i keeps the margin where it is.
+// Returns whether particle i keeps the margin where it is.
 template <class Shape>
 bool HardParticles<Shape>::fits(std::size_t i, OverlapTestCounts& tests) const {
   return is_clear_as(i, bodies_[i], margin_, tests);

@@ -22,7 +22,7 @@ namespace vitrel {
 
 namespace {
 
-/// The fraction of the packing fraction reached at which insertion is fast.
+/// The share of the packing fraction reached up to which insertion is fast.
 constexpr double safe_fraction = 0.9;
 
 template <int Dim>
@@ -36,13 +36,13 @@ std::vector<std::size_t> largest_first(const Configuration<Dim>& configuration) 
 }
 
 Pose2 random_pose(const PeriodicBox<2>& box, bool aligned, Stream& draw) {
-  // One number in each expression, since the language leaves open which of two is drawn first; y first, as always.
+  // Each expression draws one number, since the language leaves open which of two is drawn first; y is drawn first.
   const double y = draw.uniform(-0.5, 0.5) * box.lengths().y();
   const double x = draw.uniform(-0.5, 0.5) * box.lengths().x();
   return {{x, y}, aligned ? 0 : draw.uniform(0, std::numbers::pi)};
 }
 
-/// The orientation is uniform over all rotations: a direction in four dimensions.
+/// The orientation is uniform over all rotations, since its quaternion is a random direction in four dimensions.
 Pose3 random_pose(const PeriodicBox<3>& box, bool aligned, Stream& draw) {
   Pose3 pose;
   for (int k = 0; k < 3; ++k) pose.position[k] = draw.uniform(-0.5, 0.5) * box.lengths()[k];
@@ -52,11 +52,11 @@ Pose3 random_pose(const PeriodicBox<3>& box, bool aligned, Stream& draw) {
   return pose;
 }
 
-/// The pose with its axis along u or −u.
+/// Turns the pose so that its axis lies along u or −u.
 void turn_to(const ParticleShape<2>&, const Vec2& u, Pose2& pose) {
   pose.angle = polar_angle(u.y(), u.x());
 }
-/// By the smallest rotation, so that a random orientation stays random around u.
+/// Turns the pose by the smallest rotation, so that a random orientation stays random around u.
 void turn_to(const ParticleShape<3>& shape, const Vec3& u, Pose3& pose) {
   const Vec3 axis = figure_axis(shape, pose.orientation);
   const Vec3 near = dot(axis, u) < 0 ? Vec3(-u) : u;
@@ -84,7 +84,7 @@ class Insertion {
         margin_(hard_margin(configuration)) {}
 
   bool insert(std::size_t i, Stream draw) {
-    // Once: new axes at new places would favour those that are aligned and therefore fit.
+    // The axis is drawn once: new axes at new places would favour those that are aligned and therefore fit.
     const Vec<Dim> axis = axes_ ? (*axes_)(draw) : Vec<Dim>(Vec<Dim>::Zero());
     for (std::uint64_t attempt = 0; attempt < options_.attempts; ++attempt) {
       ++trials;

@@ -1,4 +1,4 @@
-// The moves of the shapes that configurations have.
+// Instances of the moves for the shapes that configurations have.
 
 #include "mc/event_chain.h"
 #include "mc/exchanges.h"

@@ -16,13 +16,13 @@ namespace vitrel {
 
 namespace {
 
-/// A lattice as columns × rows (× layers) of sites. A site with an odd number of its row and layer, as far as these
-/// alternate, moves by `stagger`, one with an even number against it.
+/// A lattice as columns × rows (× layers) of sites. The parity of a site is that of its numbers along the directions
+/// that alternate, added up. An odd site moves by `stagger`, and an even one by −`stagger`.
 template <int Dim>
 struct Lattice {
   Vec<Dim> spacing;  ///< proportions of the distances between columns, rows and layers
   Vec<Dim> stagger;  ///< in units of the spacing
-  std::array<bool, Dim> alternates;  ///< by direction; these have an even number of sites
+  std::array<bool, Dim> alternates;  ///< directions that alternate; their site counts are even
 };
 
 template <int Dim>
@@ -35,7 +35,7 @@ std::size_t product(const Counts<Dim>& counts) {
   return all;
 }
 
-/// Σ ln² of the ratios of two sides, before and after, over all pairs of directions.
+/// Returns Σ ln² of the changes in the ratio of two sides, over all pairs of directions.
 template <int Dim>
 double distortion(const Vec<Dim>& box, const Vec<Dim>& spacing, const Counts<Dim>& counts) {
   Vec<Dim> change = Vec<Dim>::Zero();
@@ -48,8 +48,8 @@ double distortion(const Vec<Dim>& box, const Vec<Dim>& spacing, const Counts<Dim
   return sum;
 }
 
-/// Columns, rows and layers with room for n sites, few of them empty, and filling a box close to the given one: one
-/// per cent of empty sites is worth as much as two sides whose ratio is wrong by a factor of 1.56.
+/// Chooses numbers of columns, rows and layers with room for n sites, few of them empty, that fill a box close to the
+/// given one. One per cent of empty sites costs as much as two sides whose ratio is wrong by a factor of 1.56.
 template <int Dim>
 class SiteCounts {
  public:
@@ -60,7 +60,8 @@ class SiteCounts {
   const Counts<Dim>& best() const { return best_; }
 
  private:
-  /// Tries all counts in directions k and later; `others` is the product of those before, without the columns.
+  /// Tries all counts in directions k and later; `others` is the product of the counts of rows (and layers) before
+  /// those.
   void choose(std::size_t k, std::size_t others) {
     if (k == Dim) return consider(others);
     const std::size_t step = lattice_.alternates[k] ? 2 : 1;
@@ -84,7 +85,7 @@ class SiteCounts {
   double lowest_cost_ = std::numeric_limits<double>::infinity();
 };
 
-/// Gives the box the sides of that many cells, at the same volume.
+/// Gives the box the sides of this number of cells, at the same volume.
 template <int Dim>
 void fit_box(PeriodicBox<Dim>& box, const Counts<Dim>& counts, const Vec<Dim>& spacing) {
   const double volume = box.volume();
@@ -98,7 +99,7 @@ void fit_box(PeriodicBox<Dim>& box, const Counts<Dim>& counts, const Vec<Dim>& s
   box = PeriodicBox<Dim>(lengths);
 }
 
-/// The place of a site, in units of the sides of the box.
+/// Returns the place of a site, in units of the sides of the box.
 template <int Dim>
 Vec<Dim> relative_position(std::size_t site, const Counts<Dim>& counts,
                            const Lattice<Dim>& lattice) {
@@ -115,7 +116,7 @@ Vec<Dim> relative_position(std::size_t site, const Counts<Dim>& counts,
   return place;
 }
 
-/// Returns the number of columns, rows and layers.
+/// Places all particles. Returns the number of columns, rows and layers.
 template <int Dim>
 Counts<Dim> place(Configuration<Dim>& configuration, const Lattice<Dim>& lattice) {
   const std::size_t n = configuration.size();
@@ -129,7 +130,7 @@ Counts<Dim> place(Configuration<Dim>& configuration, const Lattice<Dim>& lattice
   return counts;
 }
 
-/// The longest semi-axis of any particle along each direction.
+/// Returns the longest semi-axis of any particle along each direction.
 template <int Dim>
 Vec<Dim> largest_half_lengths(const Configuration<Dim>& configuration) {
   Vec<Dim> largest = Vec<Dim>::Zero();

@@ -9,10 +9,10 @@ namespace vitrel {
 
 namespace {
 
-constexpr double reach = 0.3;      // of (V/N)^(1/D)
-constexpr double rounding = 1e-9;  // of sizes
+constexpr double reach = 0.3;      // in units of (V/N)^(1/D)
+constexpr double rounding = 1e-9;  // relative, of sizes
 
-/// Pairs per particle between independent configurations.
+/// Number of pairs per particle between independent configurations.
 template <int Dim>
 constexpr double chance =
     Dim == 2 ? std::numbers::pi* reach* reach : 4 * std::numbers::pi / 3 * reach* reach* reach;

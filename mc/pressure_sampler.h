@@ -14,19 +14,19 @@ namespace vitrel {
 
 /// Monte Carlo of hard bodies at constant N, pressure and temperature (Wood, 1968).
 ///
-/// One sweep is two box trials, each of which costs about half as much as a sweep of the Sampler, and such a sweep. In
-/// a box trial ln V changes by a uniform amount within ± its step, and all positions scale; shapes and angles do not
-/// change. Without overlaps it is accepted with probability
+/// One sweep is two box trials, each of which costs about half as much as a sweep of the Sampler, and one such sweep.
+/// In a box trial ln V changes by a uniform amount within ± its step, and all positions scale; shapes and angles do not
+/// change. If nothing overlaps, the trial is accepted with probability
 ///
 ///     min(1, exp(−βP (V' − V) + (N + 1) ln(V'/V))),
 ///
-/// which is tested first because it is cheap. anisotropic: one of the sides changes, each with equal probability; a
-/// liquid does not resist shear, so the ratio of any two sides stays within a factor `max_aspect_change` of its initial
-/// value. Trial k of sweep s draws from the stream (seed, box_trials, s, k): results do not depend on the number of
-/// threads. Detailed balance holds for fixed step sizes, which change only in `tune`.
+/// which is tested first because it is cheap. An anisotropic trial changes one of the sides, each with equal
+/// probability; a liquid does not resist shear, so the ratio of any two sides stays within a factor `max_aspect_change`
+/// of its initial value. Trial k of sweep s draws from the stream (seed, box_trials, s, k), so results do not depend on
+/// the number of threads. Detailed balance holds for fixed step sizes, which change only in `tune`.
 ///
-/// `pressure` is βP, in units of one over the unit of area (a b of the reference species) or of volume (a b c).
-/// Source: wood1968.
+/// `pressure` is βP, in units of one over the unit of area (a b of the reference species) or of volume (a b c). Source:
+/// wood1968.
 template <class Shape>
 class PressureSampler {
  public:
@@ -34,7 +34,7 @@ class PressureSampler {
   static constexpr double max_aspect_change = 2;
   static constexpr std::uint64_t box_trials = 2;
 
-  /// For the configuration see Sampler.
+  /// The configuration must satisfy the conditions of Sampler.
   PressureSampler(Configuration<Dim>& configuration, double pressure, BoxChange change,
                   std::uint64_t seed, const SweepState& moves = {}, const BoxState& box = {},
                   int threads = 1);
@@ -44,7 +44,7 @@ class PressureSampler {
   void tune();
 
   void set_box_step(double step) { box_.step.size = step; }
-  /// The state given at construction, advanced by the work since.
+  /// Returns the state given at construction, advanced by the work since.
   const SweepState& moves() const { return moves_.state(); }
   const BoxState& box() const { return box_; }
 
@@ -66,7 +66,7 @@ PressureSampler(Configuration<Dim>&, double, BoxChange, std::uint64_t, const Swe
 
 namespace detail {
 
-/// The sides over L_x as a run began.
+/// Returns the sides at the start of the run, divided by L_x.
 template <int Dim>
 Vec<Dim> proportions_at_start(const BoxState& box) {
   if constexpr (Dim == 2)
@@ -102,7 +102,7 @@ void PressureSampler<Shape>::sweep() {
 
 template <class Shape>
 void PressureSampler<Shape>::try_box(Stream draw) {
-  const double growth = draw.uniform(-box_.step.size, box_.step.size);  // of ln V
+  const double growth = draw.uniform(-box_.step.size, box_.step.size);  // change of ln V
   Vec<Dim> factors = Vec<Dim>::Constant(exponential(growth / Dim));
   if (change_ == BoxChange::anisotropic) {
     factors = Vec<Dim>::Ones();
@@ -132,7 +132,7 @@ bool PressureSampler<Shape>::change_box(const Vec<Dim>& factors) {
 
 template <class Shape>
 void PressureSampler<Shape>::tune() {
-  // Ever more trials, so that the last step is a good one.
+  // Adaptations use ever more trials, so that the last step is a good one.
   constexpr std::uint64_t least = 20, share = 8;
   constexpr double widest = 0.1;
   moves_.tune();

@@ -23,49 +23,50 @@ namespace vitrel {
 /// Metropolis Monte Carlo of hard bodies at constant N, box and temperature, on any number of threads.
 ///
 /// A trial picks a particle and, if it is not round, translation or rotation with equal probability. The displacement
-/// is uniform in a square (cube) of half side `translation`, the rotation uniform within ± `rotation`. In space an
-/// ellipsoid rotates by a vector, uniform in a cube about its own axes, a spheroid by one normal to its axis. The trial
-/// is accepted if the particle then keeps the hard-core margin (hard_core.h) to all others.
+/// is uniform in a square (cube) of half side `translation`, and the rotation uniform within ± `rotation`. In space an
+/// ellipsoid rotates by a vector that is uniform in a cube about its own axes, and a spheroid by one normal to its
+/// axis. The trial is accepted if the particle then keeps the hard-core margin (hard_core.h) to all others.
 ///
-/// In mixtures, a share of the trials instead are exchanges of places (exchanges.h). A sweep can end with collective ones.
+/// In mixtures, a share of the trials are exchanges of places instead (exchanges.h), and a sweep can end with
+/// collective exchanges.
 ///
 /// One sweep is N trials:
 ///   1. The borders between domains (checkerboard.h) are shifted at random, and all particles are sorted into cells,
 ///      in the order of their numbers.
 ///   2. The colours follow each other in random order. Each domain of the current colour, with n particles, makes n
-///      trials, each with one of these at random (an exchange: with two). A move of the centre into another domain
-///      is rejected.
-///   3. Collective exchanges of all particles, on one thread.
+///      trials, each with one of its particles at random (an exchange has two). A move of the centre into another
+///      domain is rejected.
+///   3. Collective exchanges of all particles are made on one thread.
 /// Domains of one colour share no particles and do not interact, so they are swept in parallel. Sweep s draws from the
-/// stream (seed, trial_moves, s, 0), its domain k from (seed, trial_moves, s, k + 1): the state is bit-identical for any
-/// number of threads, and a sampler started at sweep s continues like one that has reached it.
+/// stream (seed, trial_moves, s, 0), and its domain k from (seed, trial_moves, s, k + 1). The state is therefore
+/// bit-identical for any number of threads, and a sampler started at sweep s continues like one that has reached it.
 ///
-/// Uniform sampling of all hard states, for fixed step sizes. Given borders and colours, everything that a trial
-/// depends on is constant while a domain is swept: which particles it holds, how many, and all others. A trial and its
-/// reverse are proposed with the same probability (to 1e-14: one of n is picked by a number of 53 bits), and accepted
-/// according to the hard states alone. (In space a rotation is undone by the opposite one about the same axes of the
-/// body.) So each trial satisfies detailed balance with respect to the uniform distribution, and so does the sweep, since
-/// its order is random. Borders and order are drawn independently of the state. Nothing else is rejected. All borders
-/// move, so they do not cut off states from each other.
+/// For fixed step sizes all hard states are sampled uniformly, for the following reason. Given borders and colours,
+/// everything that a trial depends on is constant while a domain is swept: which particles the domain holds, how many,
+/// and all other particles. A trial and its reverse are proposed with the same probability (to 1e-14, since one of n is
+/// picked by a number of 53 bits), and accepted according to the hard states alone. (In space a rotation is undone by
+/// the opposite one about the same axes of the body.) So each trial satisfies detailed balance with respect to the
+/// uniform distribution, and so does the sweep, since its order is random. Borders and order are drawn independently of
+/// the state. Nothing else is rejected. All borders move, so they do not separate states from each other for good.
 ///
 /// Step sizes change only in `tune`, which belongs to equilibration.
-/// Sources: metropolis1953; for the checkerboard anderson2013.
+/// Sources: metropolis1953, and anderson2013 for the checkerboard.
 template <class Shape>
 class Sampler {
  public:
   static constexpr int Dim = Shape::dimension;
-  /// The configuration must be hard, with wrapped positions, and outlive the sampler. Meanwhile nothing else may move
-  /// particles, or change shapes except to smaller ones.
+  /// The configuration must be hard, with wrapped positions, and outlive the sampler. As long as the sampler is used,
+  /// nothing else may move particles, or change shapes except to smaller ones.
   Sampler(Configuration<Dim>& configuration, std::uint64_t seed, const SweepState& state = {},
           int threads = 1);
 
   void sweep();
 
-  /// Adapts both step sizes towards an acceptance of 0.35, by the trials since the last adaptation; waits for more
+  /// Adapts both step sizes towards an acceptance of 0.35, using the trials since the last adaptation; waits for more
   /// if these are too few.
   void tune();
 
-  /// HardParticles::try_reshape and try_rescale.
+  /// These functions call HardParticles::try_reshape and try_rescale.
   bool reshape(std::size_t i, const ParticleShape<Dim>& shape) {
     return particles_.try_reshape(i, shape, overlap_tests_);
   }
@@ -74,13 +75,13 @@ class Sampler {
   }
 
   void set_steps(double translation, double rotation);
-  /// Exchanges of places; initially none. Shapes must then stay as they are.
+  /// Sets the exchanges of places; initially there are none. From then on shapes must stay as they are.
   void set_exchanges(const ExchangeOptions& options);
-  /// The state given at construction, advanced by the work since.
+  /// Returns the state given at construction, advanced by the work since.
   const SweepState& state() const { return state_; }
   const TrialCounts& counts() const { return state_.counts; }
 
-  /// Overlap tests since construction.
+  /// Returns the counts of overlap tests since construction.
   const OverlapTestCounts& overlap_tests() const { return overlap_tests_; }
 
  private:
@@ -167,7 +168,7 @@ void Sampler<Shape>::sweep_domain(std::size_t domain, Tally& tally) {
   const auto ranked = exchange_share > 0 ? exchanges_->ranked_members(domain) : members;
   const auto& shapes = particles_.configuration().shape;
   Stream draw(seed_, Purpose::trial_moves, state_.next_sweep, domain + 1);
-  // Draws several blocks at a time, so that independent evaluations of the generator overlap.
+  // Several blocks are drawn at a time, so that independent evaluations of the generator overlap.
   std::array<Words, 16> drawn;
   for (std::size_t done = 0; done < members.size(); done += drawn.size()) {
     const std::span trials(drawn.data(), std::min(drawn.size(), members.size() - done));
@@ -186,7 +187,7 @@ void Sampler<Shape>::sweep_domain(std::size_t domain, Tally& tally) {
   }
 }
 
-/// The direction and share of a translation or rotation: each component is between −1 and 1, symmetric about 0.
+/// Returns the direction and share of a translation or rotation; each component is between −1 and 1, symmetric about 0.
 template <class Shape>
 auto Sampler<Shape>::step(const Words& words) const -> Vec<Dim> {
   if constexpr (Dim == 2)
@@ -232,7 +233,7 @@ void Sampler<Shape>::add(const Tally& tally) {
 
 template <class Shape>
 void Sampler<Shape>::tune() {
-  constexpr std::uint64_t enough = 100;  // acceptance to about 0.05
+  constexpr std::uint64_t enough = 100;  // measures the acceptance to about 0.05
   state_.translation.tune(enough, particles_.half_box().minCoeff());
   state_.rotation.tune(enough, std::numbers::pi / 2);
 }

@@ -44,7 +44,7 @@ Configuration<Dim> with_numbers(Configuration<Dim> c, const std::vector<double>&
 template <int Dim>
 class DecorrelationCount {
  public:
-  /// Begins with this configuration, or goes on from `state`; both must outlive this object.
+  /// Begins with this configuration, or continues from `state`; both must outlive this object.
   DecorrelationCount(const Configuration<Dim>& configuration, DecorrelationState& state,
                      std::uint64_t sweeps)
       : configuration_(configuration), state_(state) {
@@ -54,7 +54,7 @@ class DecorrelationCount {
       correlation_.emplace(with_numbers(configuration, state.first));
   }
 
-  /// After every sweep, with the number of all sweeps so far.
+  /// Takes note of a sweep; `sweeps` is the number of all sweeps so far.
   void update(std::uint64_t sweeps) {
     if (sweeps < state_.next) return;
     compare();
@@ -87,7 +87,7 @@ class DecorrelationCount {
   std::optional<PlaceCorrelation<Dim>> correlation_;
 };
 
-/// How far the stage is: of the sweeps or of the decorrelations.
+/// Returns how far the stage is, by its sweeps or its decorrelations.
 Progress progress(const SamplingOptions& options, const SamplingState& state) {
   const auto sweeps = static_cast<double>(state.sweeps());
   const double share = sweeps / static_cast<double>(options.sweeps);

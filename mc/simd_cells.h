@@ -10,12 +10,12 @@
 
 namespace vitrel {
 
-/// Cell lists for SIMD batches (`Batch` of resting_bodies.h): the particles of a cell fill the lanes of a linked list of
-/// groups, all but the last group full. A cell has no capacity limit, and a test reads few groups.
+/// Cell lists for SIMD batches (`Batch` of resting_bodies.h). The particles of a cell fill the lanes of a linked list
+/// of groups, all of which are full except the last. A cell has no capacity limit, and a test reads few groups.
 ///
 /// The first group of a cell belongs to it; the others come from the free list of the cell's domain. A domain of n
-/// particles needs at most n/simd_width of those, wherever its particles are: ⌈k/simd_width⌉ − 1 < k/simd_width for a
-/// cell of k.
+/// particles needs at most n/simd_width groups of its free list, wherever its particles are, since a cell of k
+/// particles needs ⌈k/simd_width⌉ − 1 < k/simd_width.
 template <class Batch>
 class SimdCells {
  public:
@@ -25,7 +25,7 @@ class SimdCells {
   struct alignas(64) Group : Batch {
     Index particle[simd_width] = {};
     Index cell = 0;
-    Index next = none;  // group of the same cell, or of the free list
+    Index next = none;  // next group of the same cell, or of the free list
     int count = 0;
   };
 
@@ -49,7 +49,7 @@ class SimdCells {
   /// Empties a cell before it is refilled.
   void clear(std::size_t cell) { empty(static_cast<Index>(cell), static_cast<Index>(cell)); }
 
-  /// The free groups of the domain that holds the particles begin … end − 1 of all domains.
+  /// Returns the free groups of a domain that holds the particles begin … end − 1 in the order of all domains.
   FreeList free_groups(std::size_t begin, std::size_t end) {
     Index first = none;
     for (std::size_t k = end / simd_width; k-- > begin / simd_width;) {
@@ -71,7 +71,7 @@ class SimdCells {
     slot_[i] = at * simd_width + static_cast<Index>(lane);
   }
 
-  /// The last particle of the cell takes the slot that becomes free.
+  /// Removes particle i. The last particle of the cell takes its slot.
   void remove(std::size_t i, FreeList& free_list) {
     const Index group = slot_[i] / simd_width;
     Index before = none, last = groups_[group].cell;
@@ -89,7 +89,7 @@ class SimdCells {
     free_list.first_ = last;
   }
 
-  /// Exchanges the slots of particles i and j of one domain; orientations stay.
+  /// Exchanges the slots of particles i and j of one domain; the orientations stay in the slots.
   void exchange(std::size_t i, std::size_t j) {
     Group &group_i = group_of(i), &group_j = group_of(j);
     const int lane_i = lane_of(i), lane_j = lane_of(j);
@@ -103,14 +103,14 @@ class SimdCells {
   Group& group_of(std::size_t i) { return groups_[group_index(i)]; }
   int lane_of(std::size_t i) const { return static_cast<int>(slot_[i] % simd_width); }
 
-  /// The slot of lane 0 of a group; those of its other lanes follow.
+  /// Returns the slot of lane 0 of a group; the slots of its other lanes follow.
   static Index first_slot(std::size_t group) { return static_cast<Index>(group * simd_width); }
   std::size_t particle_in(Index place) const {
     return groups_[place / simd_width].particle[place % simd_width];
   }
 
  private:
-  // In place: a new group would be copied.
+  // The group is constructed in place, since a new one would be copied.
   void empty(Index group, Index cell) { std::construct_at(&groups_[group])->cell = cell; }
 
   Index append(Index to, FreeList& free_list) {
@@ -123,7 +123,7 @@ class SimdCells {
 
   std::size_t cells_ = 0;
   std::vector<Group> groups_;  // the first group of each cell, then the free ones
-  std::vector<Index> slot_;    // of each particle: group · simd_width + lane
+  std::vector<Index> slot_;    // slot of each particle: group · simd_width + lane
 };
 
 }  // namespace vitrel

@@ -7,8 +7,8 @@ namespace vitrel {
 
 /// Counts of exchanges of places (exchanges.h).
 struct ExchangeCounts {
-  std::uint64_t tried = 0, accepted = 0;        ///< of two particles of different shapes
-  std::uint64_t steps = 0, accepted_steps = 0;  ///< of collective exchanges
+  std::uint64_t tried = 0, accepted = 0;        ///< exchanges of two particles of different shapes
+  std::uint64_t steps = 0, accepted_steps = 0;  ///< steps of collective exchanges
 
   void add(const ExchangeCounts& other) {
     tried += other.tried;
@@ -54,7 +54,7 @@ struct StepSize {
     accepted += more_accepted;
   }
 
-  /// Adapts towards an acceptance of 0.35; waits for more trials if fewer than `enough`.
+  /// Adapts the size towards an acceptance of 0.35; waits for more trials if there are fewer than `enough`.
   void tune(std::uint64_t enough, double largest) {
     constexpr double target = 0.35, max_change = 2;
     if (tried < enough) return;
@@ -64,11 +64,12 @@ struct StepSize {
   }
 };
 
-/// The state of a stage of sweeps: together with the configuration, sufficient to continue with bit-identical results.
+/// The state of a stage of sweeps, which together with the configuration suffices to continue with bit-identical
+/// results.
 struct SweepState {
   std::uint64_t next_sweep = 0;  ///< number of the next sweep, which selects its random stream
-  std::uint64_t sweeps = 0;      ///< completed
-  StepSize translation{0}, rotation{0.1};  ///< 0: a tenth of the typical length
+  std::uint64_t sweeps = 0;      ///< number of completed sweeps
+  StepSize translation{0}, rotation{0.1};  ///< translation 0: a tenth of the typical length
   TrialCounts counts = {};
 };
 
@@ -77,8 +78,8 @@ inline constexpr std::uint64_t sweeps_per_tuning = 20;
 
 /// The state of the box trials.
 struct BoxState {
-  StepSize step{0.01};  ///< of ln V
-  /// L_y/L_x and L_z/L_x; 0: those of the configuration given.
+  StepSize step{0.01};  ///< step of ln V
+  /// L_y/L_x and L_z/L_x at the start; 0 means those of the given configuration.
   double aspect_at_start = 0, depth_at_start = 0;
   std::uint64_t tried = 0, accepted = 0;  ///< since the start
 };

@@ -14,13 +14,13 @@ namespace vitrel {
 
 namespace {
 
-/// The maximum number of sweeps for a round, and of a fast round.
+/// The maximum number of sweeps for a round, and the number up to which a round is fast.
 constexpr std::uint64_t max_sweeps_per_round = 40, fast_sweeps = 12;
 /// Limits of the growth g − 1 in one round.
 constexpr double smallest_growth = 1e-9, largest_growth = SwellingState().growth;
 /// The share of the distance to first contact that is used, so that pairs keep space to move.
 constexpr double share = 0.95;
-/// Jammed: the packing fraction rises by less than this in so many sweeps, relatively.
+/// Particles are jammed if the packing fraction rises by less than this relative amount in this number of sweeps.
 constexpr std::uint64_t jamming_sweeps = 5000;
 constexpr double jamming_rise = 1e-4;
 
@@ -72,8 +72,8 @@ class Swelling {
                                    std::to_string(options_.packing_fraction)};
   }
 
-  // One round, starting from the current growth; adapts that of the next. False if stopped: the round then has not
-  // begun.
+  // Makes one round, starting from the current growth, and adapts the growth of the next round. Returns false if
+  // stopped; the round then has not begun.
   bool round(const RunControl& control) {
     const Configuration<Dim> before = configuration_;
     const SweepState began = state_.moves;

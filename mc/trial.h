@@ -16,24 +16,24 @@
 /// Common parts of trial moves of one particle.
 namespace vitrel {
 
-/// Uniform on 0 … n − 1, to 1e-16 n.
+/// Returns a number uniform on 0 … n − 1, to 1e-16 n.
 inline std::size_t pick(std::uint64_t word, std::size_t n) {
   return static_cast<std::size_t>(static_cast<double>(word >> 11) * 0x1p-53 *
                                   static_cast<double>(n));
 }
 
-/// Uniform on the odd multiples of 2⁻⁵³ between −1 and 1: symmetric about 0.
+/// Returns a number uniform on the odd multiples of 2⁻⁵³ between −1 and 1, which is symmetric about 0.
 inline double plus_minus_one(std::uint64_t word) {
   return static_cast<double>((static_cast<std::int64_t>(word) >> 10) | 1) * 0x1p-53;
 }
 
-/// Uniform between −1 and 1, symmetric about 0, of the words whose share of 2⁶⁴ is not below `least`.
+/// Returns a number uniform between −1 and 1 and symmetric about 0, for words whose share of 2⁶⁴ is not below `least`.
 inline double share_above(std::uint64_t word, double least) {
   const double share = (static_cast<double>(word >> 11) + 0.5) * 0x1p-53;
   return 2 * ((share - least) / (1 - least)) - 1;
 }
 
-/// An angle or a quaternion for each particle.
+/// Returns an angle or a quaternion for each particle.
 inline std::vector<double>& orientations(Configuration2& configuration) {
   return configuration.angle;
 }
@@ -41,17 +41,17 @@ inline std::vector<Quaternion>& orientations(Configuration3& configuration) {
   return configuration.orientation;
 }
 
-/// The orientation after a rotation. In the plane by the first component.
+/// Returns the orientation after a rotation. In the plane the angle is the first component of `turn`.
 inline double rotated(const ParticleShape<2>&, double angle, const Vec2& turn) {
   return angle + turn[0];
 }
-/// In space by a vector in the own frame; rotations of a spheroid about its axis are none.
+/// In space `turn` is a vector in the own frame of the body; a spheroid does not rotate about its axis.
 inline Quaternion rotated(const ParticleShape<3>& shape, const Quaternion& orientation, Vec3 turn) {
   if (const int axis = shape.symmetry_axis(); axis != no_axis) turn[axis] = 0;
   return normalized(orientation * rotation(turn));
 }
 
-/// Bodies of all particles, in their order.
+/// Returns the bodies of all particles, in their order.
 template <class Shape>
 auto resting_bodies(Configuration<Shape::dimension>& configuration) {
   std::vector<typename RestingBodies<Shape>::Body> bodies;
@@ -62,7 +62,7 @@ auto resting_bodies(Configuration<Shape::dimension>& configuration) {
   return bodies;
 }
 
-/// translation − position, by component (Checkerboard::Translation).
+/// Returns translation − position, by component (Checkerboard::Translation).
 template <int Dim>
 VITREL_INLINE Vec<Dim> offset_of(const std::array<double, Dim>& translation,
                                  const Vec<Dim>& position) {
@@ -71,8 +71,8 @@ VITREL_INLINE Vec<Dim> offset_of(const std::array<double, Dim>& translation,
   return offset;
 }
 
-/// Calls visit(group, offset of its positions, lanes) for all particles near a position in this cell but particle i and
-/// its images, nearest cells first, until one returns false; the result tells whether all were visited.
+/// Calls visit(group, offset of its positions, lanes) for all particles near a position in this cell, except particle i
+/// and its images, nearest cells first, until a call returns false. Returns whether all were visited.
 template <int Dim, class Batch, class Visit>
 VITREL_INLINE bool for_each_near_group(const Checkerboard<Dim>& board,
                                        const SimdCells<Batch>& cells, std::size_t i,
@@ -93,7 +93,7 @@ VITREL_INLINE bool for_each_near_group(const Checkerboard<Dim>& board,
   });
 }
 
-/// Whether particle i, as this body, keeps the margin to all others at this position in this cell.
+/// Returns whether particle i, as this body, keeps the margin to all others at this position in this cell.
 template <class Shape>
 VITREL_INLINE bool clear_of_others(const Checkerboard<Shape::dimension>& board,
                                    const SimdCells<typename RestingBodies<Shape>::Batch>& cells,

@@ -12,8 +12,8 @@ namespace vitrel {
 
 namespace {
 
-constexpr double rounding = 1e-9;  // of a waiting time
-constexpr double bin_width = 0.5;  // of orientational correlations
+constexpr double rounding = 1e-9;  // relative, of a waiting time
+constexpr double bin_width = 0.5;  // for orientational correlations
 
 double nematic_length(const Configuration2& frame) {
   if (rotor_count(frame) < 2) return std::numeric_limits<double>::quiet_NaN();

@@ -19,16 +19,16 @@ namespace {
 
 constexpr std::size_t max_origins = 256;
 
-/// Six neighbours on the average, and where those of a particle begin.
+/// Bytes for a particle: six neighbours on the average, and the number at which they begin.
 constexpr double neighbor_bytes = 6 * sizeof(std::uint32_t) + sizeof(std::uint32_t);
 
 /// The neighbours of all particles at one time.
 struct Cages {
-  std::vector<std::uint32_t> first;  ///< of every particle, and the end
+  std::vector<std::uint32_t> first;  ///< where the neighbours of every particle begin, and the end
   std::vector<std::uint32_t> neighbors;
 };
 
-/// Particles are numbered by their places in `order`.
+/// Returns the cages of a frame. Particles are numbered by their places in `order`.
 Cages cages(const Configuration2& frame, const std::vector<std::uint32_t>& order) {
   const Voronoi voronoi(frame);
   std::vector<std::uint32_t> place(order.size());
@@ -45,7 +45,7 @@ Cages cages(const Configuration2& frame, const std::vector<std::uint32_t>& order
   return found;
 }
 
-/// Which frames are origins of some lag.
+/// Returns which frames are origins of some lag.
 std::vector<bool> origins_of(const std::vector<Lag>& lags, std::size_t frames) {
   std::vector<bool> is_origin(frames, false);
   for (const Lag& lag : lags)
@@ -76,7 +76,7 @@ class Recording {
 
   std::size_t particles() const { return positions_.front().size(); }
 
-  /// |Δr_c|² of all particles. `moved` is room for their displacements.
+  /// Computes |Δr_c|² of all particles. `moved` is working space for their displacements.
   void square(std::size_t from, std::size_t to, std::vector<Vec2>& moved,
               std::vector<double>& squares) const {
     const Cages& cage = cages_[from];
@@ -93,7 +93,7 @@ class Recording {
 
  private:
   std::vector<std::vector<Vec2>> positions_;  ///< [frame][particle], unwrapped
-  std::vector<Cages> cages_;                  ///< [frame]; empty but at origins
+  std::vector<Cages> cages_;                  ///< [frame]; empty except at origins
 };
 
 bool fits(const std::vector<bool>& is_origin, std::size_t particles, std::size_t memory) {
@@ -108,7 +108,7 @@ struct Quantity {
   Quantity(const Lag& lag, const LikeParticles& alike)
       : sum(lag.origins, alike.classes), of_particles(alike.class_of.size()) {}
   CorrelationSum sum;
-  std::vector<double> of_particles;  ///< summed over the origins
+  std::vector<double> of_particles;  ///< sums over the origins
 };
 
 /// The sums of one lag over all particles.

@@ -17,23 +17,23 @@ struct CageRelative {
   std::vector<double> wave_numbers;
   Correlation square;                        ///< ⟨|Δr_c|²⟩
   std::vector<Correlation> self_scattering;  ///< ⟨J₀(q |Δr_c|)⟩, one for every wave number
-  Correlation overlap;                       ///< as in displacement.h, of Δr_c
+  Correlation overlap;                       ///< overlap as in displacement.h, of Δr_c
   Correlation susceptibility;                ///< χ₄ of that overlap
 };
 
-/// How particles move relative to their neighbours,
+/// Measures how particles move relative to their neighbours,
 ///
 ///     Δr_c = Δr_i − n_i⁻¹ Σ_j Δr_j,
 ///
-/// j the n_i neighbours by Voronoi cells at the origin of time, own images left out. In two dimensions
-/// long-wavelength fluctuations move whole regions (Mermin and Wagner): the usual displacements grow with
-/// the size of the system, and relaxation looks faster than that of the cages; these do not (vivek2017,
-/// illing2017). Independent particles have ⟨|Δr_c|²⟩ = ⟨|Δr|²⟩ (1 + ⟨1/n⟩).
+/// where j are the n_i neighbours by Voronoi cells at the origin of time, without own images. In two dimensions
+/// long-wavelength fluctuations move whole regions (Mermin and Wagner): the usual displacements grow with the size of
+/// the system, and relaxation looks faster than that of the cages. Displacements relative to the cage do not have this
+/// effect (vivek2017, illing2017). Independent particles have ⟨|Δr_c|²⟩ = ⟨|Δr|²⟩ (1 + ⟨1/n⟩).
 ///
-/// Lags are those of displacements, with 256 origins at most; with more than 8192 particles there are fewer,
-/// down to 32. All positions and the neighbours at the origins are kept: about (16 F + 30 F₀) N bytes for F
-/// frames, F₀ of which are origins. The result is none if that exceeds `options.memory`. Threads share the
-/// lags, and the result does not depend on their number. Throws UserError for fewer than two frames.
+/// Lags are those of displacements, with at most 256 origins; with more than 8192 particles there are fewer, down to
+/// 32. All positions and the neighbours at the origins are kept, which takes about (16 F + 30 F₀) N bytes for F frames,
+/// F₀ of which are origins. If that exceeds `options.memory`, there is no result. Threads share the lags, and the
+/// result does not depend on their number. Throws UserError for fewer than two frames.
 std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
                                           const DisplacementOptions& options = {},
                                           const ProgressReport& report = {});

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t max_vectors = 32;
 
-/// Frames held in memory for the threads to share.
+/// Number of frames held in memory for the threads to share.
 constexpr std::size_t frames_at_once = 32;
 
 template <int Dim>
@@ -56,7 +56,7 @@ Series read_modes(Trajectory<Dim>& trajectory, const std::vector<std::array<int,
   return series;
 }
 
-/// F of the wave vectors first … first + count − 1.
+/// Returns F of the wave vectors first … first + count − 1.
 Correlation correlate(const Series& series, std::size_t first, std::size_t count,
                       const std::vector<Lag>& lags, std::size_t particles) {
   Correlation result;
@@ -79,13 +79,14 @@ Correlation correlate(const Series& series, std::size_t first, std::size_t count
   return result;
 }
 
-/// Calls visit(n) for all n with |q| within `reach` of a wave number, and for some beside them; only for those
-/// of which the first component that is not 0 is positive, in ascending order. Cost O((q L)^(D−1)): the last
+/// Calls visit(n) for all n with |q| within `reach` of a wave number, and for some n beside them. It visits only those
+/// whose first component other than 0 is positive, in ascending order. The cost is O((q L)^(D−1)), since the last
 /// component skips the inside of the shell.
 template <int Dim, class Visit>
 void for_each_near(const Vec<Dim>& unit, double wave_number, double reach, Visit&& visit) {
   std::array<int, Dim> n;
-  // Steps along an axis from the middle plane to a sphere, of which the other components have used up a part.
+  // Returns the steps along an axis from the middle plane to a sphere whose squared radius is partly used up by the
+  // other components.
   const auto steps = [&](double radius, double used, int axis) {
     return static_cast<int>(std::sqrt(std::max(0.0, radius * radius - used)) / unit[axis]);
   };
@@ -106,7 +107,7 @@ void for_each_near(const Vec<Dim>& unit, double wave_number, double reach, Visit
   choose(choose, 0, 0.0, false);
 }
 
-/// The max_vectors with the smallest distances, the smallest first, and of equal ones the first added.
+/// The max_vectors with the smallest distances, the smallest first; among equal ones, those added first.
 template <int Dim>
 class NearestVectors {
  public:

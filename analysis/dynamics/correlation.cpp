@@ -10,7 +10,7 @@ namespace vitrel {
 
 namespace {
 
-/// In eight partial sums, which processors add at once.
+/// Adds in eight partial sums, which processors compute at once.
 double sum_of(std::span<const double> values) {
   std::array<double, 8> parts{};
   std::size_t k = 0;
@@ -32,10 +32,10 @@ double mean_of(const CorrelationSum& sum, std::size_t particles) {
   return sum_of(series) / static_cast<double>(series.size());
 }
 
-/// What blocks of two time differences show of the correlations (1 − s/lag)².
+/// The part of the correlations (1 − s/lag)² that blocks of two time differences show.
 constexpr double seen_of_diffusion = 7.0 / 8;
 
-/// The mean over a series of origins that have the correlations of diffusion.
+/// Returns the mean over a series of origins that have the correlations of diffusion.
 Estimate over_origins(std::span<const double> series, const Lag& lag) {
   const Estimate plateau = block_average(series, lag.shortest_block());
   const auto two_lags = static_cast<std::size_t>(std::ceil(lag.shortest_block() / 2));
@@ -48,7 +48,7 @@ double without_student(const Estimate& estimate) {
   return estimate.blocks == 0 ? unknown : estimate.error / student_factor(estimate.blocks - 1);
 }
 
-/// Points at the long end that tell how many particles move together.
+/// Number of points at the long end that show how many particles move together.
 constexpr std::size_t last_points = 16;
 
 }  // namespace

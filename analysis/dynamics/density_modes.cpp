@@ -7,10 +7,10 @@ namespace vitrel {
 
 namespace {
 
-/// Particles whose phases stay in the cache.
+/// Number of particles whose phases stay in the cache.
 constexpr std::size_t block = 32;
 
-/// exp(i n φ) of a block of particles for n = 0 … order; real and imaginary parts apart.
+/// exp(i n φ) of a block of particles for n = 0 … order, with real and imaginary parts apart.
 class Powers {
  public:
   explicit Powers(int order)
@@ -39,7 +39,7 @@ class Powers {
   std::vector<double> real_, imaginary_;
 };
 
-/// The sum over the particles of a block.
+/// Returns the sum over the particles of a block.
 template <std::size_t Dim>
 std::complex<double> sum(const std::vector<Powers>& powers, const std::array<int, Dim>& n,
                          std::size_t count) {
@@ -50,7 +50,7 @@ std::complex<double> sum(const std::vector<Powers>& powers, const std::array<int
     imaginary_parts[d] = powers[d].imaginary(std::abs(n[d]));
     sign[d] = n[d] < 0 ? -1 : 1;
   }
-  double real[2] = {}, imaginary[2] = {};  // even and odd particles, added at once
+  double real[2] = {}, imaginary[2] = {};  // even and odd particles are added at once
   for (std::size_t p = 0; p < count; ++p) {
     double re = real_parts[0][p], im = sign[0] * imaginary_parts[0][p];
     for (std::size_t d = 1; d < Dim; ++d) {

@@ -15,9 +15,9 @@ namespace vitrel {
 
 namespace {
 
-// Longest time of the fit over its shortest: at most, at least, and where m is not straight at once.
+// Ratio of the longest to the shortest time of the fit: the maximum, the minimum, and the one if m is not straight.
 constexpr double longest_window = 27, shortest_window = 3, later_window = 9;
-constexpr double chance = 3;       // standard errors within which two slopes agree
+constexpr double chance = 3;       // number of standard errors within which two slopes agree
 constexpr double tolerance = 0.1;  // change of the slope that a coefficient may have as its error
 
 void check(const MeanSquareCurve& m) {
@@ -42,9 +42,8 @@ MeanSquareCurve points_with_error(const MeanSquareCurve& m) {
   return points;
 }
 
-/// ∫ w(d) overlap(d)² dd for lags s ≤ t of a run, d = b − a; w counts the pairs of origins a in
-/// [0, run − s], b in [0, run − t]. The integrand is a cubic between the bounds, where Simpson's
-/// rule is exact.
+/// Returns ∫ w(d) overlap(d)² dd for lags s ≤ t of a run, where d = b − a, and w counts the pairs of origins a in [0,
+/// run − s], b in [0, run − t]. The integrand is a cubic between the bounds, where Simpson's rule is exact.
 double squared_overlap(double s, double t, double run) {
   const auto integrand = [&](double d) {
     const double overlap = std::min(s, d + t) - std::max(0.0, d);
@@ -60,12 +59,12 @@ double squared_overlap(double s, double t, double run) {
   return sum;
 }
 
-/// The covariance of the mean squares at two times, but for a factor, if all motion is diffusion.
+/// Returns the covariance of the mean squares at two times, up to a factor, if all motion is diffusion.
 double diffusive_covariance(double s, double t, double run) {
   return run > t ? squared_overlap(s, t, run) / (run - s) / (run - t) : s * s;
 }
 
-/// The covariance of the points: correlations of diffusion, and their own errors.
+/// Returns the covariance of the points, from the correlations of diffusion and their own errors.
 Eigen::MatrixXd covariance(const MeanSquareCurve& m, const Eigen::VectorXd& variance) {
   const auto n = static_cast<Eigen::Index>(m.time.size());
   Eigen::MatrixXd result(n, n);
@@ -88,7 +87,7 @@ class Slopes {
 
   const MeanSquareCurve& curve() const { return m_; }
 
-  /// The coefficients c for the points [begin, end), 0 elsewhere.
+  /// Returns the coefficients c for the points [begin, end); the others are 0.
   Eigen::VectorXd coefficients(std::size_t begin, std::size_t end) const {
     double sum = 0, mean = 0;
     for (std::size_t k = begin; k < end; ++k) sum += weight(k), mean += weight(k) * m_.time[k];
@@ -106,7 +105,7 @@ class Slopes {
   }
   double error(const Eigen::VectorXd& c) const { return std::sqrt(c.dot(covariance_ * c)); }
 
-  /// The first point at or after a time, but for rounding.
+  /// Returns the first point at or after a time, up to rounding.
   std::size_t index(double time) const {
     const auto at = std::lower_bound(m_.time.begin(), m_.time.end(), time * (1 - 1e-9));
     return static_cast<std::size_t>(at - m_.time.begin());
@@ -116,11 +115,11 @@ class Slopes {
   double weight(std::size_t k) const { return 1 / variance_[static_cast<Eigen::Index>(k)]; }
 
   MeanSquareCurve m_;
-  Eigen::VectorXd variance_;  // of diffusion, but for a factor
+  Eigen::VectorXd variance_;  // variance of diffusion, up to a factor
   Eigen::MatrixXd covariance_;
 };
 
-/// Where the second half of a window begins, which goes from a point to the end.
+/// Returns where the second half of a window begins, which goes from a point to the end.
 std::size_t middle_of(const Slopes& slopes, std::size_t begin) {
   const std::vector<double>& time = slopes.curve().time;
   return slopes.index(std::sqrt(time[begin] * time.back()));
@@ -129,7 +128,7 @@ std::size_t middle_of(const Slopes& slopes, std::size_t begin) {
 /// The slopes of both halves of a window, from a point to the end.
 struct Halves {
   double change;  ///< later slope − earlier slope
-  double error;   ///< of the change
+  double error;   ///< error of the change
   double later;
 };
 
@@ -145,7 +144,7 @@ bool straight(const Halves& h) {
   return std::abs(h.change) <= chance * h.error;
 }
 
-/// Whether both halves of a window have two points, which a slope needs.
+/// Returns whether both halves of a window have two points, which a slope needs.
 bool has_halves(const Slopes& slopes, std::size_t begin) {
   const std::size_t middle = middle_of(slopes, begin);
   return middle >= begin + 2 && slopes.curve().time.size() >= middle + 2;
@@ -157,7 +156,7 @@ bool enough_points(const Slopes& slopes) {
          has_halves(slopes, slopes.index(time.back() / later_window));
 }
 
-/// Where the window begins: m = 1, but not too near to either end.
+/// Returns where the window begins: at m = 1, but not too near to either end.
 std::size_t first_point(const Slopes& slopes) {
   const MeanSquareCurve& m = slopes.curve();
   const auto moved = std::ranges::find_if(m.value, [](double value) { return value >= 1; });

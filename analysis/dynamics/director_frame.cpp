@@ -23,7 +23,7 @@ std::vector<double> turns_of_director(Trajectory2& whole) {
   return directors;
 }
 
-/// The shortest rotation from one unit vector to another, at most a quarter turn away.
+/// Returns the shortest rotation from one unit vector to another, at most a quarter turn away.
 Quaternion rotation_between(const Vec3& from, const Vec3& to) {
   const Vec3 axis = from.cross(to);
   return Quaternion(1 + from.dot(to), axis.x(), axis.y(), axis.z()).normalized();

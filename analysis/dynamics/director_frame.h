@@ -7,13 +7,13 @@
 
 namespace vitrel {
 
-/// A trajectory as seen from its director: orientations are those to the director of each frame (order.h,
-/// orientation_tensor.h), which is followed from frame to frame; the rest is that of the whole, which
-/// must outlive it. In the plane the turns of the director are counted, so that angles stay unwrapped; in
-/// space every frame is turned by the shortest rotations that carry the director back to the one before
-/// and so on to the first. In a box of R particles that are not round the director of a nematic is free
-/// to turn, slowly, as a whole: rotation in this frame is that beside it. One pass over all frames when
-/// made. Valid where the director turns by less than a right angle between two frames.
+/// A trajectory as seen from its director. Orientations are relative to the director of each frame (order.h,
+/// orientation_tensor.h), which is followed from frame to frame; the rest is that of the whole trajectory, which must
+/// outlive this one. In the plane the turns of the director are counted, so that angles stay unwrapped. In space every
+/// frame is turned by the shortest rotations that carry the director back to that of the frame before, and so on to the
+/// first. In a box of R particles that are not round, the director of a nematic is free to turn, slowly, as a whole;
+/// this frame shows the rotation of particles without it. The constructor makes one pass over all frames. Validity: the
+/// director must turn by less than a right angle between two frames.
 template <int Dim>
 class DirectorFrame : public Trajectory<Dim> {
  public:

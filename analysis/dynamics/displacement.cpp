@@ -16,7 +16,7 @@ namespace vitrel {
 
 namespace {
 
-/// Particles whose paths stay in the cache.
+/// Number of particles whose paths stay in the cache.
 constexpr std::size_t paths_at_once = 16;
 
 /// Particles of one species, or all of them.
@@ -44,7 +44,7 @@ std::vector<Members<Dim>> species_of(const Configuration<Dim>& first) {
   return species;
 }
 
-/// Sums of all particles from those of the species.
+/// Returns the sums of all particles from those of the species.
 template <int Dim>
 Members<Dim> together(const std::vector<Members<Dim>>& species, const std::vector<Lag>& lags,
                       const TrackQuantities<Dim>& quantities, std::size_t classes) {
@@ -79,11 +79,11 @@ class Pass {
     for (std::size_t begin = 0; begin < first_.size(); begin += batch)
       add_batch(begin, std::min(begin + batch, first_.size()));
   }
-  /// The largest turn of any particle between two frames.
+  /// Returns the largest turn of any particle between two frames.
   double largest_turn() const { return largest_turn_; }
 
  private:
-  /// Reading a batch counts as much as summing it.
+  /// Reports progress. Reading a batch counts as much as summing it.
   void tell(std::size_t begin, std::size_t end, double part) const {
     const double done = static_cast<double>(begin) + static_cast<double>(end - begin) * part;
     if (report_) report_({done / static_cast<double>(first_.size()), done, "particles"});
@@ -168,7 +168,7 @@ DisplacementGroup evaluate(const Members<Dim>& members, const std::vector<Lag>& 
   return group;
 }
 
-/// The curves of the frames begin … end − 1 alone, for an evenly sampled run.
+/// Returns the curves of the frames begin … end − 1 alone, for an evenly sampled run.
 template <int Dim>
 HalfOfRun evaluate_half(const Members<Dim>& all, const std::vector<Lag>& lags, double longest_lag,
                         std::size_t begin, std::size_t end) {

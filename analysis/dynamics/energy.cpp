@@ -62,7 +62,7 @@ CompressibilitySeries compressibility(const EnergySeries& energy, const std::vec
     series.mean = {unknown, unknown, 0};
     return series;
   }
-  // The mean over a run of uneven intervals is not that of the intervals' values.
+  // If intervals differ, the mean over the run is not the mean of the values in the intervals.
   series.mean = time_average(energy.time, series.value);
   series.mean.mean = between(0, frames - 1);
   return series;

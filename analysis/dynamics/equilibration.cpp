@@ -15,11 +15,11 @@ namespace vitrel {
 
 namespace {
 
-constexpr double false_alarms = 0.01;  // of a verdict of ageing
-constexpr double rounding = 1e-9;      // of a value: conserved energies drift by it
-constexpr double spacing = 2;          // of the times at which curves are compared
+constexpr double false_alarms = 0.01;  // probability of a false verdict of ageing
+constexpr double rounding = 1e-9;      // relative; conserved energies drift by it
+constexpr double spacing = 2;          // ratio of the times at which curves are compared
 
-/// One comparison: what it is about, and the probability of such a difference by chance.
+/// One comparison: its subject, and the probability of such a difference by chance.
 struct Comparison {
   std::string text;
   double probability;
@@ -29,7 +29,7 @@ double two_sided(double t, std::size_t degrees) {
   return 2 * gsl_cdf_tdist_Q(std::abs(t), static_cast<double>(degrees));
 }
 
-/// Time between two values of a series over the whole run.
+/// Returns the time between two values of a series over the whole run.
 double step_of(const ScalarSeries& series, double duration) {
   return duration / static_cast<double>(series.value.size() - 1);
 }
@@ -44,7 +44,7 @@ double correlation_time(const ScalarSeries& series, double duration) {
   return step_of(series, duration) * static_cast<double>(correlation_steps(series.value));
 }
 
-/// The time by which a correlation has decayed; NaN if that is not known.
+/// Returns the time by which a correlation has decayed; NaN if it is not known.
 double known_time(const RelaxationTime& tau) {
   return std::isnan(tau.value) ? tau.most : tau.value;
 }
@@ -63,7 +63,7 @@ double slowest_time(const RunEvidence& run, const std::vector<double>& of_series
   return slowest;
 }
 
-/// Standard error of a mean, without Student's factor, and the blocks it rests on; 0: too few.
+/// Standard error of a mean, without Student's factor, and the number of blocks behind it; 0 if there are too few.
 struct BlockError {
   double error;
   std::size_t blocks;
@@ -74,9 +74,9 @@ BlockError without_student(const Estimate& estimate) {
   return {estimate.error / student_factor(estimate.blocks - 1), estimate.blocks};
 }
 
-/// The error of the mean of what a line leaves of a series whose correlations decay in `correlation` steps: by
-/// blocking, where that reaches a plateau; else from blocks of the smallest length. There the line takes a
-/// degree of freedom.
+/// Returns the error of the mean of the residuals of a line fitted to a series whose correlations decay in
+/// `correlation` steps. It comes from blocking, if that reaches a plateau; otherwise from blocks of the smallest
+/// length, where the line takes a degree of freedom.
 BlockError error_of_residual(const std::vector<double>& residual, double shortest_block,
                              double correlation) {
   const BlockError plateau = without_student(block_average(residual, shortest_block));
@@ -88,7 +88,7 @@ BlockError error_of_residual(const std::vector<double>& residual, double shortes
   return {known.error * std::sqrt((m - 1) / (m - 2)), known.blocks};
 }
 
-/// Change over the series of the line fitted to it, and the error of the mean of what it leaves.
+/// The change over the series of the line fitted to it, and the error of the mean of the residuals.
 struct Trend {
   double mean, change;
   BlockError residual;
@@ -110,7 +110,7 @@ Trend trend(const std::vector<double>& series, double shortest_block, double cor
   return {mean, change, error_of_residual(residual, shortest_block, correlation)};
 }
 
-/// Nothing if the series is too short for an error.
+/// Tests a series for drift. Returns nothing if the series is too short for an error.
 std::optional<Comparison> drift(const ScalarSeries& series, double duration, double correlation,
                                 double slowest) {
   if (!is_known(series)) return std::nullopt;
@@ -126,7 +126,7 @@ std::optional<Comparison> drift(const ScalarSeries& series, double duration, dou
                     probability};
 }
 
-/// The difference of two curves at the k-th point of the first one, the l-th of the second.
+/// Compares two curves at the k-th point of the first one and the l-th of the second.
 Comparison difference(const HalvesOfCurve& c, std::size_t k, std::size_t l) {
   const auto squared = [](const BlockedCurve& curve, std::size_t at) {
     const double error = curve.error[at] / student_factor(curve.blocks[at] - 1);
@@ -171,14 +171,14 @@ std::string shortage(const ScalarSeries& series, double correlation_time, double
                   min_relaxations);
 }
 
-/// Why the run is too short for a relaxation time; empty if it is not.
+/// Returns why the run is too short for a relaxation time, which is empty if it is not.
 std::string shortage(const NamedTime& named, double duration, double needed) {
   const double time = known_time(named.time);
   if (std::isnan(time)) return fmt::format("{}: {}", named.name, named.time.reason);
   return shortage(named.name, time, duration, needed);
 }
 
-/// Why the run is too short for a verdict; empty if it is not.
+/// Returns why the run is too short for a verdict, which is empty if it is not.
 std::string shortage(const RunEvidence& run, const std::vector<double>& of_series,
                      const std::string& untested, double slowest) {
   if (run.times.empty()) return "no relaxation time";

@@ -17,8 +17,8 @@
 namespace vitrel {
 namespace detail {
 
-/// The polynomials Q_n of the orientational correlations ⟨Q_n(u(0)·u(t))⟩, n = 0, 1, 2 … at once:
-/// Chebyshev's T_n(cos Δθ) = cos nΔθ in the plane, Legendre's P_n in space.
+/// Computes the polynomials Q_n of the orientational correlations ⟨Q_n(u(0)·u(t))⟩ for n = 0, 1, 2 …: Chebyshev's
+/// T_n(cos Δθ) = cos nΔθ in the plane, and Legendre's P_n in space.
 template <int Dim, class Chunk>
 class Polynomials {
  public:
@@ -27,7 +27,7 @@ class Polynomials {
     now_ = x;
   }
 
-  /// Q_n; n must not be smaller than at the call before, and at least 1.
+  /// Returns Q_n; n must be at least 1, and not smaller than at the call before.
   const Chunk& of(double n) {
     for (; order_ < n; order_ += 1)
       for (std::size_t k = 0; k < count_; ++k) {
@@ -52,18 +52,17 @@ class Polynomials {
 template <int Dim>
 struct TrackQuantities {
   std::vector<double> wave_numbers, orders;
-  std::size_t axes;  ///< whose directions are correlated
+  std::size_t axes;  ///< number of axes whose directions are correlated
   double overlap_distance;
   MotionParts parts;
   DirectionAverage<Dim> direction_average = {};
 };
 
-/// Sums over particles that are told apart by their class (LikeParticles) for the errors only.
+/// Sums over particles. Their classes (LikeParticles) matter for the errors only.
 template <int Dim>
 class LagSums {
  public:
-  /// `rotors`: whether there may be any among the particles. `lag` and `quantities` must outlive the
-  /// sums.
+  /// `rotors` says whether there may be any among the particles. `lag` and `quantities` must outlive the sums.
   LagSums(const Lag& lag, const TrackQuantities<Dim>& quantities, bool rotors, std::size_t classes)
       : lag_(&lag),
         quantities_(&quantities),
@@ -116,12 +115,12 @@ class LagSums {
   const std::vector<CorrelationSum>& scattering() const { return scattering_; }
   const Rotation& rotation() const { return *rotation_; }
 
-  /// ⟨s²⟩ = ⟨s⟩²/c of normally distributed displacements and rotations; s are their squares.
+  /// ⟨s²⟩ = ⟨s⟩²/c for normally distributed displacements and rotations, whose squares are s.
   static constexpr double normal_translation = Dim / (Dim + 2.0);
   static constexpr double normal_rotation = Path<Dim>::rotations / (Path<Dim>::rotations + 2.0);
 
  private:
-  /// Origins worked on at a time: all that belongs to them stays in the first cache.
+  /// The number of origins worked on at a time; all that belongs to them stays in the first-level cache.
   static constexpr std::size_t chunk = 256;
   using Chunk = std::array<double, chunk>;
   /// Consecutive origins of a lag.

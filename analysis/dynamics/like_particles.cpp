@@ -8,7 +8,7 @@ namespace vitrel {
 
 namespace {
 
-constexpr std::size_t enough = 8;  // particles of a class
+constexpr std::size_t enough = 8;  // particles in a class
 constexpr int max_halvings = 5;
 
 template <int Dim>
@@ -28,7 +28,7 @@ class Classes {
       ++result_.classes;
       return;
     }
-    // Particles that are equal in this are told apart by their number.
+    // Particles that are equal in this are distinguished by their number.
     const auto key = [&](std::size_t i) {
       const ParticleShape<Dim>& shape = configuration_.shape[i];
       return std::pair(halvings % 2 == 0 ? shape.volume() : shape.circumradius(), i);

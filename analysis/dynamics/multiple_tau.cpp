@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t places = MultipleTau<2>::points;
 
-/// Room for the rounding of a longest lag that is a whole number of intervals.
+/// Allows for the rounding of a longest lag that is a whole number of intervals.
 constexpr double slack = 1e-9;
 
 std::uint64_t longest_steps(const MultipleTauOptions& options) {
@@ -26,7 +26,7 @@ std::uint64_t longest_steps(const MultipleTauOptions& options) {
       std::max(1.0, std::floor(options.longest_lag / options.interval * (1 + slack))));
 }
 
-/// The steps of a level between samples that are paired.
+/// Returns the steps between paired samples of a level.
 std::vector<std::size_t> level_steps(std::size_t level, std::uint64_t longest) {
   std::vector<std::size_t> steps;
   for (std::size_t j = level == 0 ? 1 : places / 2; j < places && (j << level) <= longest; ++j)
@@ -40,8 +40,8 @@ std::size_t level_count(std::uint64_t longest) {
   return levels;
 }
 
-/// Σ terms(i), begin ≤ i < end, each in two partial sums that do not wait for each other; the order is
-/// always the same.
+/// Returns Σ terms(i), begin ≤ i < end, each in two partial sums that do not wait for each other; the order is always
+/// the same.
 template <std::size_t Count, class Terms>
 std::array<double, Count> sums_of(std::size_t begin, std::size_t end, Terms&& terms) {
   std::array<double, Count> even{}, odd{};
@@ -58,7 +58,7 @@ std::array<double, Count> sums_of(std::size_t begin, std::size_t end, Terms&& te
   return even;
 }
 
-/// |x(to) − x(from)|² of entry i.
+/// Returns |x(to) − x(from)|² of entry i.
 template <std::size_t Count>
 double squared_change(const std::array<std::vector<double>, Count>& from,
                       const std::array<std::vector<double>, Count>& to, std::size_t i) {
@@ -81,7 +81,7 @@ std::vector<double> take_front(std::span<const double>& numbers, std::size_t cou
   return {front.begin(), front.end()};
 }
 
-/// What a state must share with the correlator that takes it.
+/// Returns the numbers that a state must share with the correlator that restores it.
 std::vector<double> identity(std::size_t particles, const MultipleTauOptions& options) {
   std::vector<double> numbers{static_cast<double>(particles), options.interval, options.longest_lag,
                               static_cast<double>(options.wave_numbers.size())};
@@ -180,7 +180,7 @@ void MultipleTau<Dim>::take(const Configuration<Dim>& configuration) {
   }
 }
 
-/// In the plane, from the angle.
+/// In the plane the axis follows from the angle.
 template <>
 void MultipleTau<2>::set_axis(Sample& sample, std::size_t k) const {
   sample.axis[0][k] = std::cos(sample.turn[0][k]);

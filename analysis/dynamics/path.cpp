@@ -17,7 +17,7 @@ Quaternion orientation_at(const Track<3>& track, std::size_t k) {
   return {q[0][k], q[1][k], q[2][k], q[3][k]};
 }
 
-/// In the frame of the body: the figure axis, or all three from the longest to the shortest.
+/// Returns axes in the frame of the body: the figure axis, or all three from the longest to the shortest.
 std::vector<Vec3> body_axes(const ParticleShape<3>& shape, std::size_t count) {
   if (count == 1) return {figure_axis(shape, Quaternion::Identity())};
   std::array<int, 3> order{};
@@ -28,7 +28,8 @@ std::vector<Vec3> body_axes(const ParticleShape<3>& shape, std::size_t count) {
   return axes;
 }
 
-/// Angles by the shortest turns from frame to frame, of which the largest is noted, as if the period were 2π.
+/// Returns angles unwrapped by the shortest turns from frame to frame. The largest turn is noted as if the period were
+/// 2π.
 FrameSeries unwrapped(FrameSeries angle, double period, double& largest_turn) {
   for (std::size_t k = 1; k < angle.size(); ++k) {
     const double turn = std::remainder(angle[k] - angle[k - 1], period);

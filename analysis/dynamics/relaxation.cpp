@@ -14,7 +14,7 @@ namespace vitrel {
 namespace {
 
 constexpr double level = 1 / std::numbers::e;
-constexpr double reach = 1.25;  // of the straight line, as a factor of time
+constexpr double reach = 1.25;  // range of the straight line, as a factor of time
 
 void check(const Decay& c) {
   if (c.time.empty() || c.value.size() != c.time.size() || c.error.size() != c.time.size())
@@ -30,7 +30,7 @@ RelaxationTime without(const std::string& reason, double least = unknown, double
   return {unknown, unknown, least, most, reason};
 }
 
-/// Whether some value from `begin` on is above 1/e by more than three errors.
+/// Returns whether some value from `begin` on is above 1/e by more than three errors.
 bool returns(const Decay& c, std::size_t begin) {
   for (std::size_t k = begin; k < c.time.size(); ++k)
     if (c.value[k] - 3 * c.error[k] > level) return true;
@@ -42,7 +42,7 @@ struct Line {
   double time, value;  ///< geometric and arithmetic mean of the points
   double slope;        ///< per unit of ln t
   double error;        ///< the mean error of the points
-  double error_slope;  ///< that of the line through the errors
+  double error_slope;  ///< slope of the line through the errors
 };
 
 Line straight_line(const Decay& c, std::size_t begin, std::size_t end) {

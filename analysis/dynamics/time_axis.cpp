@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t max_pairs = std::size_t{1} << 22;
 /// The relative rounding error of single precision.
 constexpr double single_precision = 0x1p-24;
-/// The most that time differences taken as equal may differ by, relative.
+/// The maximum relative difference of time differences that are taken as equal.
 constexpr double widest = 1e-3;
-/// The number of time differences for functions that depend on more than these.
+/// The number of time differences for functions that depend on more than the time difference.
 constexpr std::size_t few_lags = 10;
 
 std::size_t stride_to(std::size_t most, std::size_t available) {
@@ -42,7 +42,7 @@ std::vector<Lag> even_lags(std::span<const double> times, const TimeAxisOptions&
   return lags;
 }
 
-/// A time difference between two frames, and by how much rounding may have changed it.
+/// A time difference between two frames, and the amount by which rounding may have changed it.
 struct Difference {
   Difference(std::span<const double> times, std::size_t from, std::size_t to)
       : time(times[to] - times[from]),
@@ -53,12 +53,12 @@ struct Difference {
   bool is_from_first;
 };
 
-/// How far another difference may be from this one and yet be taken as equal.
+/// Returns how far another difference may be from this one and yet be taken as equal.
 double tolerance(const Difference& one, const Difference& other) {
   return std::min(one.uncertainty + other.uncertainty, widest * one.time);
 }
 
-/// From so many frames.
+/// Returns the differences from this number of first frames.
 std::vector<Difference> first_differences(std::span<const double> times, std::size_t first_frames) {
   std::vector<Difference> found;
   for (std::size_t from = 0; from < first_frames; ++from) {
@@ -71,7 +71,7 @@ std::vector<Difference> first_differences(std::span<const double> times, std::si
   return found;
 }
 
-/// For every step of time the difference that most pairs have, ascending.
+/// Returns for every step of time the difference that most pairs have, in ascending order.
 std::vector<Difference> common_differences(const std::vector<Difference>& sorted,
                                            std::size_t steps_per_decade) {
   std::vector<Difference> chosen;
@@ -100,7 +100,7 @@ std::vector<Difference> common_differences(const std::vector<Difference>& sorted
   return chosen;
 }
 
-/// All pairs of frames that far apart, the first of them one of so many.
+/// Returns all pairs of frames that are this far apart and begin in one of the first frames.
 std::vector<FramePair> pairs_of(const Difference& wanted, std::span<const double> times,
                                 std::size_t first_frames) {
   std::vector<FramePair> pairs;
@@ -117,7 +117,7 @@ std::vector<FramePair> pairs_of(const Difference& wanted, std::span<const double
   return pairs;
 }
 
-/// The most origins that begin within some window of this duration.
+/// Returns the maximum number of origins that begin within some window of this duration.
 std::size_t max_within(double duration, const std::vector<FramePair>& pairs,
                        std::span<const double> times) {
   std::size_t most = 0;
@@ -149,7 +149,7 @@ Lag lag_of(const Difference& wanted, std::span<const double> times, std::size_t 
 std::vector<Lag> uneven_lags(std::span<const double> times, const TimeAxisOptions& options) {
   const std::size_t first_frames = options.only_first_origin ? 1 : times.size() - 1;
   std::vector<Lag> lags;
-  double least = 0;  // so far apart that no pair of frames belongs to two lags
+  double least = 0;  // keeps lags so far apart that no pair of frames belongs to two
   for (const Difference& wanted :
        common_differences(first_differences(times, first_frames), options.lags_per_decade)) {
     if (wanted.time < least) continue;
@@ -210,7 +210,7 @@ std::vector<Lag> few_lags_of_motion(const FrameTimes& trajectory, TimeAxisOption
   std::vector<Lag> all = time_axis_of_motion(trajectory, options), few;
   if (all.empty()) return few;
   const double shortest = all.front().time, range = all.back().time / shortest;
-  double next = 0;  // of few_lags steps
+  double next = 0;  // next of few_lags steps
   for (Lag& lag : all) {
     const double place = range > 1 ? std::log(lag.time / shortest) / std::log(range) : 0;
     if (place * (few_lags - 1) < next - 1e-9) continue;

@@ -18,18 +18,18 @@ struct Track {
   static constexpr std::size_t orientation_numbers = Dim == 2 ? 1 : 4;
 
   std::array<FrameSeries, Dim> position;  ///< unwrapped
-  /// In the plane the angle; in space the quaternion w, x, y, z.
+  /// The angle in the plane, or the quaternion w, x, y, z in space.
   std::array<FrameSeries, orientation_numbers> orientation;
-  double turn_period = 0;  ///< of the angle; 0: it is unwrapped
+  double turn_period = 0;  ///< period of the angle; 0: it is unwrapped
 };
 
-/// Bytes that the track of one particle takes.
+/// Returns the bytes that the track of one particle takes.
 template <int Dim>
 std::size_t track_bytes(std::size_t frames) {
   return (Dim + Track<Dim>::orientation_numbers) * sizeof(double) * frames;
 }
 
-/// Tracks of the particles begin … end − 1, from one pass over the frames. `tell` hears how much of it
+/// Reads the tracks of the particles begin … end − 1 in one pass over the frames. `tell` is called with the share that
 /// is done, 0 … 1.
 template <int Dim>
 std::vector<Track<Dim>> read_tracks(Trajectory<Dim>& trajectory, std::size_t begin, std::size_t end,

@@ -23,7 +23,7 @@ std::vector<TwoTimeAverages> average_two_times(Trajectory<Dim>& trajectory,
                                                const ProgressReport& report, int threads) {
   std::vector<std::vector<FrameAverage>> sums(lags.size(),
                                               std::vector<FrameAverage>(functions.size()));
-  std::vector<std::size_t> next(lags.size());  // origin of every lag
+  std::vector<std::size_t> next(lags.size());  // next origin of every lag
   for (std::size_t from = 0; from < trajectory.frames(); ++from) {
     std::vector<std::size_t> at_lag;
     for (std::size_t l = 0; l < lags.size(); ++l)

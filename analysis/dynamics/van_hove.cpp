@@ -12,7 +12,7 @@ namespace {
 
 constexpr double max_pairs_per_particle = 1 << 13;
 
-/// Every so many-th particle at an origin leaves no more pairs than allowed.
+/// Returns the n for which every n-th particle at an origin leaves no more pairs than allowed.
 template <int Dim>
 std::size_t start_stride(const Configuration<Dim>& frame, const std::vector<Lag>& lags,
                          double reach) {
@@ -32,7 +32,7 @@ TwoTimeFunction<Dim> van_hove_self(const PairCorrelationOptions& options) {
   return {bins.middles(), [bins](const TwoTimes<Dim>& pair) {
             std::vector<double> row(bins.count() + 1);
             for (const double distance : pair.distance) ++row[bins.bin(distance)];
-            row.pop_back();  // what is farther
+            row.pop_back();  // particles that moved farther
             for (double& x : row) x /= bins.step() * static_cast<double>(pair.distance.size());
             return row;
           }};

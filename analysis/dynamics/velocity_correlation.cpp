@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t max_origins = 128;
 constexpr std::size_t max_spectrum_lags = 400;
-/// Particles whose velocities stay in the cache.
+/// Number of particles whose velocities stay in the cache.
 constexpr std::size_t particles_at_once = 16;
 
-/// The components of v, and then those of ω if particles turn, of one particle at every frame.
+/// The components of v of one particle at every frame, followed by those of ω if particles turn.
 using Components = std::vector<FrameSeries>;
 template <int Dim>
 constexpr std::size_t angular_components = Dim == 2 ? 1 : 3;
@@ -46,7 +46,7 @@ std::vector<Components> read_components(Trajectory<Dim>& trajectory, std::size_t
   return particles;
 }
 
-/// v² and v(0)·v(t) of one particle.
+/// Adds v² and v(0)·v(t) of one particle.
 void add(MomentSum& sum, std::span<const FrameSeries> velocity, const Lag& lag,
          std::size_t its_class) {
   std::vector<double> squares(lag.origins), products(lag.origins);
@@ -65,7 +65,7 @@ struct VelocitySums {
   std::vector<MomentSum> translation, rotation;
 };
 
-/// The sums of all particles. Threads share the lags, so that every sum adds up its particles in their order.
+/// Returns the sums of all particles. Threads share the lags, so that every sum adds up its particles in their order.
 template <int Dim>
 VelocitySums sums_of(Trajectory<Dim>& trajectory, const std::vector<Lag>& lags, bool rotates,
                      const DisplacementOptions& options, const ProgressReport& report) {
@@ -93,7 +93,7 @@ VelocitySums sums_of(Trajectory<Dim>& trajectory, const std::vector<Lag>& lags, 
   return sums;
 }
 
-/// The number of intervals M of the spectra: up to there every lag is one interval longer than the one before.
+/// Returns the number of intervals M of the spectra, up to which every lag is one interval longer than the one before.
 std::size_t spectrum_intervals(const std::vector<double>& times, const std::vector<Lag>& lags) {
   std::size_t last = 0;
   if (!evenly_spaced(times)) return 0;
@@ -102,7 +102,7 @@ std::size_t spectrum_intervals(const std::vector<double>& times, const std::vect
   return last;
 }
 
-/// g at ω_j, of the lags 0 … M.
+/// Returns g at ω_j from the lags 0 … M.
 Estimate spectral_density(std::size_t j, const std::vector<MomentSum>& sums,
                           const std::vector<double>& correlation, std::span<const Lag> lags) {
   const std::size_t m = lags.size() - 1;
@@ -124,7 +124,7 @@ Estimate spectral_density(std::size_t j, const std::vector<MomentSum>& sums,
   return {density, average_of_decay(series, lags[m]).error, 0};
 }
 
-/// Without values if nothing moves.
+/// Returns the correlations, which have no values if nothing moves.
 VelocityCorrelation evaluate(const std::vector<MomentSum>& sums, std::size_t particles,
                              const std::vector<Lag>& lags, std::size_t intervals) {
   VelocityCorrelation found;

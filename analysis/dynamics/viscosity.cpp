@@ -6,7 +6,7 @@
 namespace vitrel {
 namespace {
 
-/// Squared changes over this lag from the first origins, added over the elements.
+/// Returns the squared changes over this lag from the first origins, added over the elements.
 std::vector<double> squared_changes(const std::vector<std::vector<double>>& moments, const Lag& lag,
                                     std::size_t origins) {
   std::vector<double> squares(origins);
@@ -25,7 +25,7 @@ Estimate mean_of_origins(std::span<const double> series, const Lag& lag, double 
   return {factor * mean.mean, factor * mean.error, mean.blocks};
 }
 
-/// Between the relaxation time and three times that.
+/// Returns the slope between the relaxation time and three times that.
 DiffusionCoefficient slope(const std::vector<Lag>& lags,
                            const std::vector<std::vector<double>>& moments, double relaxation_time,
                            double factor) {

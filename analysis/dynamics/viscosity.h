@@ -8,7 +8,7 @@
 
 namespace vitrel {
 
-/// What of a run its viscosity depends on beside the moments.
+/// Properties of a run on which its viscosity depends, beside the moments.
 struct ViscosityScale {
   double volume;       ///< V, an area in the plane
   double temperature;  ///< kT
@@ -18,12 +18,12 @@ struct ViscosityScale {
 
 struct Viscosity {
   std::vector<double> lag;           ///< time differences t
-  std::vector<std::size_t> origins;  ///< averaged over, for every lag
+  std::vector<std::size_t> origins;  ///< number of origins averaged over, for every lag
   Correlation moment;                ///< ⟨ΔG(t)²⟩/(2 V kT)
   DiffusionCoefficient shear;        ///< η, with the time differences of its slope
 };
 
-/// The shear viscosity η from the Helfand moments G_ab of the frames (edmd/momentum_flux.h), a ≠ b,
+/// Returns the shear viscosity η from the Helfand moments G_ab of the frames (edmd/momentum_flux.h), a ≠ b,
 ///
 ///     ⟨[G_ab(t) − G_ab(0)]²⟩/(2 V kT) → η t + constant
 ///
@@ -31,14 +31,14 @@ struct Viscosity {
 /// frame, and over time origins. It is Green and Kubo's integral of the stress autocorrelation, without its noise from
 /// sampling, and exact for impulses.
 ///
-/// 1. All frames are origins. The errors are those of CorrelationSum by blocks, and there is none at lags with fewer
-///    than eight of these.
-/// 2. With τ the relaxation time, η is the slope between τ and 3 τ, where the constant has dropped out. Its error is that
-///    of the series of this slope at every origin, by the same blocks. There is none, and the reason is said, where τ is
-///    unknown, the samples are not evenly spaced, or the run is too short.
+/// 1. All frames are origins. The errors are those of CorrelationSum by blocks; there is none at lags with fewer than
+///    eight blocks.
+/// 2. Let τ be the relaxation time. η is the slope between τ and 3 τ, where the constant has dropped out. Its error is
+///    that of the series of this slope at every origin, by the same blocks. If τ is unknown, the samples are not evenly
+///    spaced, or the run is too short, there is no η, and the reason is given.
 ///
-/// For fluids of elastic particles whose momentum and energy are conserved, and which are isotropic; the box should be
-/// about cubic. Cost about (lags) × (frames) × 2 ns for each element.
+/// The formula holds for isotropic fluids of elastic particles whose momentum and energy are conserved; the box should
+/// be about cubic. The cost is about (lags) × (frames) × 2 ns for each element.
 Viscosity shear_viscosity(const std::vector<double>& times,
                           const std::vector<std::vector<double>>& moments,
                           const ViscosityScale& scale, TimeAxisOptions axis = {});

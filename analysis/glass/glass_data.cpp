@@ -8,9 +8,9 @@
 namespace vitrel {
 namespace {
 
-constexpr double nematic_order_of_l = 2;  // the n of L_n that is judged
+constexpr double nematic_order_of_l = 2;  // n of the L_n that is judged
 
-/// Where L_2 of the first axis is among the orders; none if it was not measured.
+/// Returns the place of L_2 of the first axis among the orders, or nothing if it was not measured.
 std::optional<std::size_t> index_of_l_2(const Displacements& found) {
   const auto order = std::ranges::find(found.orders, nematic_order_of_l);
   const auto index = static_cast<std::size_t>(order - found.orders.begin());
@@ -22,7 +22,7 @@ Decay decay(const std::vector<double>& lag, const Correlation& correlation) {
   return {lag, correlation.value, correlation.error};
 }
 
-/// L_2 alone.
+/// Returns options that measure L_2 alone.
 DisplacementOptions of_orientation(DisplacementOptions options) {
   options.parts = {.displacement = false, .scattering = false, .overlap = false};
   options.orders = {nematic_order_of_l};
@@ -51,7 +51,7 @@ void add_orientation(GlassRunData& data, const Displacements& found) {
       {"L_2", blocked(first, first.orientation[l]), blocked(second, second.orientation[l])}};
 }
 
-/// What there is without another pass, but for L_2.
+/// Returns the data that need no other pass, without L_2.
 GlassRunData known_data(const GlassSource& run, int dimension, const std::vector<double>& times) {
   const Displacements& found = run.displacements;
   GlassRunData data{};

@@ -11,7 +11,7 @@
 
 namespace vitrel {
 
-/// What the analysis has found out about a run.
+/// What the analysis has found out about one run.
 struct GlassSource {
   std::string name;
   std::uint64_t seed;
@@ -26,10 +26,10 @@ struct GlassSource {
   const DiffusionCoefficient& rotational_diffusion;
 };
 
-/// What the glass study needs of it: F_s at the first of the wave numbers, relative to the cage if that is known,
-/// L_2 (of a nematic seen from its director), order, diffusion, and curves once more from each half of the run. No
-/// value for runs that are not evenly sampled: these cannot be judged. `report` is called with the share of the
-/// particles of all passes that are done.
+/// Returns what the glass study needs of a run: F_s at the first of the wave numbers, relative to the cage if that is
+/// known, L_2 (of a nematic seen from its director), order, diffusion, and curves once more from each half of the run.
+/// Returns no value for runs that are not evenly sampled, because these cannot be judged. `report` is called with the
+/// share of the particles of all passes that are done.
 template <int Dim>
 std::optional<GlassRunData> glass_run_data(Trajectory<Dim>& trajectory, const GlassSource& run,
                                            const DisplacementOptions& options,

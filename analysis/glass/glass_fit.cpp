@@ -21,14 +21,14 @@ namespace vitrel {
 namespace {
 
 constexpr double equal_densities = 1e-4;
-constexpr double smallest_gap = 1e-5;  // of φ_c from the highest density
+constexpr double smallest_gap = 1e-5;  // minimum distance of φ_c from the highest density
 constexpr double densest = 1;
 constexpr double min_goodness = 0.05;
 constexpr double one_error = 1;        // rise of χ² at the ends of a 68.3 % interval
-constexpr double limit_95 = 2.7055;    // and at a limit of 95 %, 1.645²
-constexpr double min_distinction = 4;  // by which χ² of the other law must be larger
-constexpr double max_deviation = 3;    // standard errors, of a density from the extrapolated law
-constexpr std::size_t max_fewer = 3;   // densities of a shorter window
+constexpr double limit_95 = 2.7055;    // rise of χ² at a limit of 95 %, 1.645²
+constexpr double min_distinction = 4;  // amount by which χ² of the other law must be larger
+constexpr double max_deviation = 3;    // standard errors of a density from the extrapolated law
+constexpr std::size_t max_fewer = 3;   // number of densities that a shorter window lacks
 constexpr int resamples = 40;
 constexpr int scan_points = 400, limit_points = 50;
 
@@ -38,13 +38,13 @@ struct Point {
 };
 using Points = std::span<const Point>;
 
-/// The law is ln τ = ln A + s x(φ, φ_c).
+/// Returns x(φ, φ_c) of the law ln τ = ln A + s x(φ, φ_c).
 double abscissa(GlassLaw law, double density, double packing_fraction) {
   const double gap = density - packing_fraction;
   return law == GlassLaw::mode_coupling ? -std::log(gap) : packing_fraction / gap;
 }
 
-/// ∂x/∂φ_c.
+/// Returns ∂x/∂φ_c.
 double abscissa_derivative(GlassLaw law, double density, double packing_fraction) {
   const double gap = density - packing_fraction;
   return law == GlassLaw::mode_coupling ? -1 / gap : -packing_fraction / (gap * gap);
@@ -56,10 +56,10 @@ struct Line {
   double information;  ///< χ² grows by information · (s − strength)²
 };
 
-/// The law over the points of one window.
+/// The fit of a law to the points of one window.
 class WindowFit {
  public:
-  /// φ_c is above `relaxed`.
+  /// φ_c must be above `relaxed`.
   WindowFit(Points points, GlassLaw law, double relaxed) : points_(points), law_(law) {
     highest_ = points_.back().packing_fraction;
     min_gap_ = std::max(relaxed - highest_, 0.0) + smallest_gap;
@@ -101,7 +101,7 @@ class WindowFit {
     return {y - strength * x, strength, yy - strength * (2 * xy - strength * xx), xx};
   }
 
-  /// The best φ_c of a fine grid.
+  /// Returns the window with the best φ_c of a fine grid.
   GlassWindow scan() const {
     const double step = (last() - first()) / (scan_points - 1);
     int best = 0;
@@ -124,7 +124,7 @@ class WindowFit {
     return w;
   }
 
-  /// Where χ² has risen on both sides, and how large s may be.
+  /// Sets where χ² has risen on both sides, and how large s may be.
   void set_limits(GlassWindow& w) const {
     const double best = std::isnan(w.density) ? last() : std::log(w.density - highest_);
     w.low = crossing(best, first(), w.chi_square + one_error);
@@ -141,7 +141,7 @@ class WindowFit {
     }
   }
 
-  /// φ_c between u and `end` at which χ² has risen to `target`; NaN if it does not.
+  /// Returns the φ_c between u and `end` at which χ² has risen to `target`; NaN if it does not.
   double crossing(double u, double end, double target) const {
     if (line(end).chi_square < target) return unknown;
     for (int k = 0; k < 60; ++k) {
@@ -151,7 +151,7 @@ class WindowFit {
     return density(u);
   }
 
-  /// All three parameters at once, and their covariance.
+  /// Fits all three parameters at once, and computes their covariance.
   void refine(GlassWindow& w) const {
     const auto residuals = [&](const Eigen::VectorXd& p, Eigen::VectorXd& r, Eigen::MatrixXd& j) {
       const double gap = std::exp(p[2]);
@@ -194,7 +194,7 @@ void check(const std::vector<GlassPoint>& points) {
   }
 }
 
-/// Times at equal densities as one, and by how much more they scatter than they should.
+/// Times at equal densities combined into one, and the factor by which they scatter more than they should.
 struct Densities {
   std::vector<Point> points;
   double scatter;
@@ -228,7 +228,7 @@ Densities merge(std::vector<GlassPoint> points) {
   return result;
 }
 
-/// Above which density a law may have its φ_c: at a divergence nothing relaxes.
+/// Returns the density above which a law may have its φ_c: at a divergence nothing relaxes.
 double lower_end(const std::vector<Point>& points, GlassLaw law) {
   return law == GlassLaw::vogel_fulcher ? points.back().packing_fraction : 0;
 }
@@ -248,20 +248,20 @@ std::vector<GlassWindow> all_windows(const std::vector<Point>& points, GlassLaw 
   return windows;
 }
 
-/// The largest window in which the law fits; all densities if there is none.
+/// Returns the largest window in which the law fits; all densities if there is none.
 const GlassWindow& largest(const std::vector<GlassWindow>& windows) {
   return *std::ranges::max_element(windows, {}, [](const GlassWindow& w) {
     return std::tuple(w.goodness >= min_goodness, w.densities, -w.chi_square);
   });
 }
 
-/// By which factor times grow from the lowest to the highest density.
+/// Returns the factor by which times grow from the lowest to the highest density.
 double growth(Points points) {
   return std::exp(points.back().y - points.front().y);
 }
 
-/// The distance of a point from the law of a window, in standard errors of both; NaN if the window
-/// leaves the error of the law open.
+/// Returns the distance of a point from the law of a window, in standard errors of both; NaN if the window leaves the
+/// error of the law open.
 double deviation(const Point& p, const GlassWindow& w, GlassLaw law) {
   const Eigen::Vector3d gradient(
       1, abscissa(law, w.density, p.packing_fraction),
@@ -272,7 +272,7 @@ double deviation(const Point& p, const GlassWindow& w, GlassLaw law) {
   return std::abs(p.y - expected) / std::sqrt(variance + p.error * p.error);
 }
 
-/// Whether φ_c has an upper limit of 95 %: s has one then, and only then.
+/// Returns whether φ_c has an upper limit of 95 %; if and only if it has, s has one.
 bool is_bounded(const GlassWindow& w) {
   return std::isfinite(w.strength_most);
 }
@@ -285,7 +285,7 @@ std::string text(const GlassWindow& w) {
   return fmt::format("the best window, [{:.4g}, {:.4g}]", w.lowest, w.highest);
 }
 
-/// What a density outside of the window says against its law; empty if nothing does.
+/// Returns how a density outside of the window contradicts its law, or nothing if none does.
 std::string contradiction(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
   std::string objection;
   double largest = max_deviation;
@@ -303,7 +303,7 @@ std::string contradiction(const GlassWindow& w, const std::vector<Point>& points
   return objection;
 }
 
-/// What shorter windows with the same beginning say against φ_c; empty if nothing.
+/// Returns how shorter windows with the same beginning contradict φ_c, or nothing if none does.
 std::string drift(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
   const std::size_t fewest = std::max(min_densities + max_fewer, w.densities) - max_fewer;
   for (std::size_t count = fewest; count < w.densities; ++count) {
@@ -318,7 +318,7 @@ std::string drift(const GlassWindow& w, const std::vector<Point>& points, GlassL
   return "";
 }
 
-/// Whether the other law fits the window as well; empty if not.
+/// Returns a text if the other law fits the window as well, and nothing if it does not.
 std::string alternative(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
   const GlassLaw other =
       law == GlassLaw::mode_coupling ? GlassLaw::vogel_fulcher : GlassLaw::mode_coupling;
@@ -330,7 +330,7 @@ std::string alternative(const GlassWindow& w, const std::vector<Point>& points, 
       w.chi_square, chi_square, min_distinction);
 }
 
-/// The first reason not to believe the law of a window; empty if there is none.
+/// Returns the first reason not to believe the law of a window, or nothing if there is none.
 std::string objection(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
   if (w.goodness < min_goodness)
     return fmt::format("the law holds in no window: chi^2/dof is {:.3g} in [{:.4g}, {:.4g}]",
@@ -354,7 +354,7 @@ std::string objection(const GlassWindow& w, const std::vector<Point>& points, Gl
   return alternative(w, points, law);
 }
 
-/// Whether times drawn anew within their errors support the law as well; empty if so.
+/// Returns a text unless times drawn anew within their errors support the law as well.
 std::string weakness(const GlassWindow& w, const std::vector<Point>& points, GlassLaw law) {
   int supports = 0;
   for (std::uint64_t k = 0; k < resamples; ++k) {
@@ -374,7 +374,7 @@ std::string weakness(const GlassWindow& w, const std::vector<Point>& points, Gla
       supports, resamples);
 }
 
-/// Why there is no law, whatever its windows say; empty if there may be one.
+/// Returns why there is no law, whatever its windows say, or nothing if there may be one.
 std::string shortage(const std::vector<Point>& points) {
   if (points.size() < min_densities)
     return fmt::format("{} densities in equilibrium; a fit needs {} or more", points.size(),

@@ -6,10 +6,10 @@
 #include "analysis/glass/glass_study.h"
 
 /// @file
-/// Names of what the glass study distinguishes; tables hold the numbers of the enumerations.
+/// Names of the cases that the glass study distinguishes; tables hold the numbers of the enumerations.
 namespace vitrel {
 
-// In the order of the enumerations.
+// The names are in the order of the enumerations.
 inline constexpr std::array<std::string_view, 3> verdict_names = {"equilibrated", "ageing",
                                                                   "not enough time"};
 inline constexpr std::array<std::string_view, 4> orientation_names = {

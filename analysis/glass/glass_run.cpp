@@ -11,9 +11,9 @@
 namespace vitrel {
 namespace {
 
-constexpr double negligible = 0.05;  // rest of a correlation that has decayed
+constexpr double negligible = 0.05;  // rest of a correlation that counts as decayed
 
-/// Whether nothing is left of a correlation at the longest time, but for what its error explains.
+/// Returns whether nothing is left of a correlation at the longest time, except for what its error explains.
 bool vanishes(const Decay& correlation) {
   const double error = std::isnan(correlation.error.back()) ? 0 : correlation.error.back();
   return correlation.value.back() <= std::max(negligible, 3 * error);

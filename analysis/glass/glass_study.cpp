@@ -23,7 +23,7 @@ bool nematic(const GlassRun& run) {
   return run.plateau > 0;
 }
 
-/// Whether a run can have a time of this kind at all.
+/// Returns whether a run can have a time of this kind at all.
 bool applies(GlassKind kind, const GlassRun& run) {
   switch (kind) {
     case GlassKind::translation:
@@ -41,7 +41,7 @@ Time time_of(GlassKind kind, const GlassRun& run) {
   return {time.value, time.error};
 }
 
-/// 1/D of the same motion.
+/// Returns 1/D of the same motion.
 Time diffusion_time_of(GlassKind kind, const GlassRun& run) {
   switch (kind) {
     case GlassKind::translation:
@@ -54,13 +54,13 @@ Time diffusion_time_of(GlassKind kind, const GlassRun& run) {
   return {unknown, unknown};
 }
 
-/// Whether a run was in equilibrium as far as this kind of time needs it.
+/// Returns whether a run was in equilibrium as far as this kind of time needs it.
 bool equilibrated(GlassKind kind, const GlassRun& run) {
   return equilibrated(kind == GlassKind::translation ? run.translation_equilibration
                                                      : run.equilibration);
 }
 
-/// The times of one kind that enter a fit.
+/// Returns the times of one kind that enter a fit.
 std::vector<GlassPoint> points_of(GlassKind kind, const std::vector<GlassRun>& runs,
                                   Time (*time_of_kind)(GlassKind, const GlassRun&)) {
   std::vector<GlassPoint> points;

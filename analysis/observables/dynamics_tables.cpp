@@ -17,7 +17,7 @@ Column column(const std::string& name, const char* unit, const Correlation& corr
   return {name, unit, correlation.value, correlation.error};
 }
 
-/// A column for every function, whose number, from 1, stands for {}.
+/// Adds a column for every function, whose number, from 1, replaces {} in the name.
 void add_numbered(Table& table, const char* name, const std::vector<Correlation>& functions) {
   for (std::size_t k = 0; k < functions.size(); ++k)
     table.columns.push_back(column(fmt::format(fmt::runtime(name), k + 1), "1", functions[k]));
@@ -31,7 +31,7 @@ constexpr auto motion = Chart::Section::motion, relaxation = Chart::Section::rel
 constexpr auto logarithmic = Chart::Scale::logarithmic, decay = Chart::Scale::decay;
 const double one_e = std::exp(-1);
 
-/// Against the logarithm of the time difference.
+/// Returns a chart against the logarithm of the time difference.
 Chart against_time(Chart::Section section, const char* heading, const char* symbol,
                    std::vector<Curve> curves, Chart::Scale scale = Chart::Scale::linear) {
   return {.section = section,
@@ -54,7 +54,7 @@ Chart correlation(const char* heading, const char* symbol, std::vector<Curve> cu
   return chart;
 }
 
-/// A chart of scattering functions, which are numbered like the wave numbers in this column.
+/// Returns a chart of scattering functions, which are numbered like the wave numbers in this column.
 Chart at_wave_numbers(Chart chart, const char* column = "q") {
   chart.numbers = {"wave_numbers", column, "q"};
   return chart;
@@ -65,7 +65,7 @@ Chart at_waiting_times(Chart chart) {
   return chart;
 }
 
-/// What differs between the plane and space.
+/// The words that differ between the plane and space.
 struct Words {
   const char *axis, *non_gaussian, *unit_length, *unit_time, *orientation, *orientation_column;
 };
@@ -272,9 +272,9 @@ Observable cage_relative_observable() {
                                              "Fₛ(q, t)", {{"fs_#", "#"}}))}};
 }
 
-constexpr double rounding = 1e-9;  // of time differences after several waiting times
+constexpr double rounding = 1e-9;  // relative, of time differences after several waiting times
 
-/// All time differences of all waiting times, ascending.
+/// Returns all time differences of all waiting times, in ascending order.
 std::vector<double> times_of(const std::vector<AgedMotion>& ageing) {
   std::vector<double> times;
   for (const AgedMotion& aged : ageing)
@@ -285,7 +285,7 @@ std::vector<double> times_of(const std::vector<AgedMotion>& ageing) {
   return times;
 }
 
-/// At these times, NaN where there is no value.
+/// Returns a column with the values at these times, NaN where there is none.
 Column aged_column(const std::string& name, const char* unit, const std::vector<double>& times,
                    const std::vector<double>& known, const Correlation& correlation) {
   Column column{name, unit, std::vector<double>(times.size(), std::nan("")),

@@ -19,15 +19,15 @@ struct RunDynamics {
   Displacements displacements;
   CollectiveScattering collective = {};  ///< at the wave numbers of the displacements; may be empty
   std::optional<CageRelative> cage_relative = {};  ///< in two dimensions, at the same wave numbers
-  std::vector<AgedMotion> ageing = {};             ///< for every waiting time
+  std::vector<AgedMotion> ageing = {};             ///< one entry for every waiting time
 };
 
 std::vector<Table> dynamics_tables(const RunDynamics& dynamics);
 
-/// Those tables, in their order.
+/// Returns the descriptions of these tables, in their order.
 std::vector<Observable> dynamics_observables(int dimension);
 
-/// The time differences of these tables and their origins in words, for the provenance.
+/// Returns the time differences of these tables and their origins in words, for the provenance.
 std::string time_axis_text(std::span<const double> times, const Displacements& found);
 
 }  // namespace vitrel

@@ -8,10 +8,11 @@
 
 namespace vitrel {
 
-/// Energies and compressibility factor in the course of a run; none of a single sample.
+/// Returns tables of energies and of the compressibility factor in the course of a run; there are none for a single
+/// sample.
 std::vector<Table> energy_tables(const EnergySeries& energy, const CompressibilitySeries& z);
 
-/// Those tables, in their order.
+/// Returns the descriptions of these tables, in their order.
 std::vector<Observable> energy_observables();
 
 }  // namespace vitrel

@@ -19,7 +19,7 @@
 /// are drawn.
 namespace vitrel {
 
-/// Order of one frame after another, what there is of it.
+/// The order of one frame after another, as far as it is defined.
 struct OrderSeries {
   std::vector<double> nematic, hexatic;
 };
@@ -28,17 +28,18 @@ template <int Dim>
 class FrameObservable {
  public:
   virtual ~FrameObservable() = default;
-  /// Called for several frames at a time. What it returns adds the frame to the averages, and is called
-  /// in the order of the frames.
+  /// Measures a frame; may be called for several frames at a time. The function that it returns adds the frame to the
+  /// averages, and is called in the order of the frames.
   virtual std::function<void()> measure(const Configuration<Dim>& frame) = 0;
-  /// After the last frame. `is_even`: the frames are equally spaced in time; only then averages have errors.
+  /// Returns the tables after the last frame. `is_even` says that the frames are equally spaced in time; only then
+  /// averages have errors.
   virtual std::vector<Table> tables(bool is_even) const = 0;
-  /// Adds what it knows of the order.
+  /// Adds the order that this observable knows.
   virtual void add_order(OrderSeries&) const {}
 };
 
-/// An observable as the list of all of them has it: how its tables are described, and how it is made for a
-/// run that has what the first of these needs, with the first frame of that.
+/// An observable in the list of all observables: the descriptions of its tables, and the function that makes it, from
+/// the first frame, for a run that has what the first of these tables needs.
 template <int Dim>
 struct FrameObservableType {
   using Make = std::unique_ptr<FrameObservable<Dim>>(const Configuration<Dim>& first,
@@ -47,28 +48,28 @@ struct FrameObservableType {
   std::function<Make> make;
 };
 
-/// The tables of all observables of frames, in their order.
+/// Returns the descriptions of the tables of all observables of frames, in their order.
 std::vector<Observable> frame_observables(int dimension);
 
-/// What the frames of a run say.
+/// The results from the frames of a run.
 struct FrameResults {
   std::vector<Table> tables;
   OrderSeries order;
 };
 
-/// How many frames averages are taken over: a frame of many particles says more. At least 64 of those that were asked
-/// for, for errors by blocks in time.
+/// Returns the number of frames that averages are taken over. There are fewer for many particles, since a frame of
+/// many says more, but at least 64 of those asked for, so that there are errors by blocks in time.
 std::size_t frames_for(std::size_t particles, const StructureOptions& options);
 
-/// Frames are read one after another and measured on up to `threads` threads, some at a time; the results do
-/// not depend on it. `report` is called with the share of the frames that are done. Only observables with a
-/// table of `only`, if that is not empty.
+/// Reads the frames one after another and measures them on up to `threads` threads, some at a time; the results do not
+/// depend on the number of threads. `report` is called with the share of the frames that are done. If `only` is not
+/// empty, only observables with a table named in it are measured.
 template <int Dim>
 FrameResults measure_frames(Trajectory<Dim>& trajectory, const StructureOptions& options,
                             int threads = all_cores, const ProgressReport& report = {},
                             const std::vector<std::string>& only = {});
 
-/// A column with the averages of a row over the frames; `slower` as FrameAverage has it.
+/// Returns a column with the averages of a row over the frames; `slower` means the same as in FrameAverage.
 Column averaged(const std::string& name, const std::string& unit, const FrameAverage& rows,
                 bool is_even, std::span<const double> slower = {});
 

@@ -5,7 +5,7 @@
 
 namespace vitrel {
 
-// One source file each, and its line below.
+// Each of these has a source file of its own, and a line in the list below.
 template <int Dim>
 FrameObservableType<Dim> structure_factor_observable();
 template <int Dim>
@@ -20,7 +20,7 @@ FrameObservableType<3> two_point_observable();
 
 namespace {
 
-/// The list to add to.
+/// Returns the list of all observables; a new one is added here.
 template <int Dim>
 std::vector<FrameObservableType<Dim>> types() {
   std::vector<FrameObservableType<Dim>> all = {
@@ -56,7 +56,7 @@ FrameObservables<Dim> observables_of(const Configuration<Dim>& first,
   return observables;
 }
 
-/// Frames shared by the threads at a time, fewer of many particles for the memory that they take.
+/// Returns the number of frames that the threads share at a time, which is smaller for many particles to save memory.
 std::size_t frames_at_once(std::size_t particles) {
   constexpr std::size_t fewest = 4, most = 32, particles_at_once = 1'000'000;
   return std::clamp(particles_at_once / std::max<std::size_t>(1, particles), fewest, most);

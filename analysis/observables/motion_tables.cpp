@@ -94,7 +94,7 @@ Table viscosity_table(const Viscosity& found, int dimension) {
            {"origins", "1", {found.origins.begin(), found.origins.end()}}}};
 }
 
-/// The table of a function of two times has a column for every lag.
+/// Returns the description of the table of a function of two times, which has a column for every lag.
 Observable of_two_times(const char* name, const char* what, std::vector<ColumnKind> columns,
                         Chart chart) {
   chart.numbers = {"lag_times", "time", "t"};

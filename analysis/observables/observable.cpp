@@ -16,7 +16,7 @@
 namespace vitrel {
 namespace {
 
-/// Over the packing fraction, if the sweep does not say otherwise.
+/// Returns a chart over the packing fraction, unless the sweep varies something else.
 Chart of_study(const char* heading, const char* symbol, const char* column,
                Chart::Scale scale = Chart::Scale::linear) {
   return {.section = Chart::Section::study,
@@ -63,7 +63,7 @@ Observable summary_observable() {
 }  // namespace
 
 const Observable* find(const std::vector<Observable>& all, std::string_view table) {
-  // A group of one may be the name of another: orientation_distribution.
+  // The name of a group may be that of another table: orientation_distribution.
   for (const bool groups : {false, true})
     for (const Observable& observable : all)
       if (observable.has_groups == groups &&

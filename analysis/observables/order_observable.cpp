@@ -8,7 +8,7 @@ namespace vitrel {
 
 namespace {
 
-/// In the plane: nematic order and director of the particles that are not round, hexatic order of all.
+/// Observes, in the plane, nematic order and director of the particles that are not round, and hexatic order of all.
 class PlaneOrder final : public FrameObservable<2> {
  public:
   explicit PlaneOrder(const Configuration2& first) : rotors_(rotor_count(first)) {}
@@ -50,7 +50,7 @@ class PlaneOrder final : public FrameObservable<2> {
   std::vector<double> time_, nematic_, director_, hexatic_;
 };
 
-/// In space: nematic order and director of the bodies that are not round.
+/// Observes, in space, nematic order and director of the bodies that are not round.
 class SpaceOrder final : public FrameObservable<3> {
  public:
   explicit SpaceOrder(const Configuration3& first) : rotors_(rotor_count(first)) {}
@@ -80,7 +80,7 @@ class SpaceOrder final : public FrameObservable<3> {
   void add_order(OrderSeries& order) const override { order.nematic = nematic_; }
 
  private:
-  /// Takes that of the two directions which is nearer to the one of the frame before.
+  /// Takes the one of the two directions that is nearer to the direction of the frame before.
   void follow(Vec3 director) {
     if (director.dot(before_) < 0) director = -director;
     for (std::size_t k = 0; k < 3; ++k) director_[k].push_back(director[static_cast<int>(k)]);

@@ -12,10 +12,10 @@ namespace vitrel {
 
 namespace {
 
-/// Bins of the angles from the director have about 2° each; one of them has the director in its middle.
+/// Bins of the angles from the director are about 2° wide each; one of them has the director in its middle.
 constexpr std::size_t angle_bins = 91;
 
-/// In the plane: the density of the angles from the director.
+/// Observes, in the plane, the density of the angles from the director.
 class AngleDistribution final : public FrameObservable<2> {
  public:
   explicit AngleDistribution(const Configuration2& first) : rotors_(rotor_count(first)) {}
@@ -50,14 +50,14 @@ class AngleDistribution final : public FrameObservable<2> {
   FrameAverage density_;
 };
 
-/// In space: the orientation tensor.
+/// Observes, in space, the orientation tensor.
 class TensorAverage final : public FrameObservable<3> {
  public:
   std::function<void()> measure(const Configuration3& frame) override {
     return [this, tensor = orientation_tensor(frame)] {
       ++frames_;
       axes_ = tensor.axes;
-      // Rows x, y, z, of columns x, y, z.
+      // The rows are x, y and z of the columns x, y and z.
       tensor_.add(std::span(tensor.matrix.data(), 9));
     };
   }

@@ -11,7 +11,8 @@ namespace vitrel {
 
 namespace {
 
-/// The column of a bin of θ: in the plane by its middle in degrees, in space by that of cos θ in hundredths.
+/// Returns the name of the column of a bin of θ: in the plane by its middle in degrees, in space by the middle of cos θ
+/// in hundredths.
 template <int Dim>
 std::string column_of_angle(std::size_t bin) {
   if (Dim == 2) return fmt::format("g_theta_{:02}", 5 + 10 * bin);
@@ -91,12 +92,12 @@ class PairCorrelationObservable final : public FrameObservable<Dim> {
   std::vector<double> distance_, near_;
   FrameAverage g_, g_2_, g_4_;
   std::vector<FrameAverage> partial_;
-  /// Mean of g_A_B − g over the distances, in every frame: pairs of species are as slow as these mix.
+  /// Mean of g_A_B − g over the distances in every frame. Pairs of species are as slow as these mix.
   std::vector<std::vector<double>> mixing_;
   std::array<FrameAverage, axis_angle_bins<Dim>> by_angle_;
 };
 
-/// Not all bins are drawn, as there are no more than eight colours; the first and the last are.
+/// Returns the curves of some bins, since there are only eight colours; the first and the last are among them.
 template <int Dim>
 std::vector<Curve> curves_by_angle() {
   std::vector<Curve> curves;

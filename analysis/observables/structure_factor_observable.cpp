@@ -9,7 +9,7 @@ namespace vitrel {
 
 namespace {
 
-/// The wave vectors of the present box, shared by the threads; made and destroyed by one at a time.
+/// The wave vectors of the present box. Threads share them, but only one at a time makes or destroys them.
 template <int Dim>
 class SharedShells {
  public:
@@ -90,7 +90,7 @@ class StructureFactorObservable final : public FrameObservable<Dim> {
                  : "");
   }
 
-  /// Narrow shells of small boxes have no wave vectors.
+  /// Drops shells without wave vectors, which are narrow shells of small boxes.
   static void drop_empty_shells(Table& table) {
     const std::vector<double> modes = table.columns.back().value;
     const auto drop = [&](std::vector<double>& values) {

@@ -48,7 +48,7 @@ class TwoPointObservable final : public FrameObservable<3> {
   std::vector<double> distance_;
   FrameAverage probability_;
   std::array<FrameAverage, 3> paths_;
-  /// ⟨w_k²⟩ of the axes w of all bodies, in every frame: paths along an axis are as slow.
+  /// ⟨w_k²⟩ of the axes w of all bodies in every frame. Paths along an axis are as slow as this.
   std::array<std::vector<double>, 3> along_;
 };
 

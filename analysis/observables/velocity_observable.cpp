@@ -9,11 +9,11 @@ namespace vitrel {
 
 namespace {
 
-/// Bins of the density of a velocity component, in units of its standard deviation.
+/// Range and width of the bins of the density of a velocity component, in units of its standard deviation.
 constexpr double widest = 5, width = 0.1;
 constexpr std::size_t bins = 100;
 
-/// What one frame says of the velocities, in the frame of its centre of mass.
+/// The velocities in one frame, relative to its centre of mass.
 struct Velocities {
   double temperature = 0, sonine = 0;
   std::vector<double> density;
@@ -27,7 +27,7 @@ Vec<Dim> mean_velocity(const Configuration<Dim>& frame) {
   return sums.momentum / mass;
 }
 
-/// Velocities times √m, whose distribution is that of the equilibrium whatever the masses: with s = m v² in
+/// Evaluates velocities times √m, whose distribution in equilibrium does not depend on the masses. With s = m v² in
 /// units of the temperature, T = ⟨s⟩/d and a₂ = d ⟨s²⟩/((d + 2) ⟨s⟩²) − 1.
 template <int Dim>
 Velocities velocities(const Configuration<Dim>& frame) {
@@ -53,7 +53,7 @@ Velocities velocities(const Configuration<Dim>& frame) {
   return found;
 }
 
-/// The temperature against time, the second Sonine coefficient and the density of a component.
+/// Observes the temperature against time, the second Sonine coefficient and the density of a component.
 template <int Dim>
 class VelocityObservable final : public FrameObservable<Dim> {
  public:

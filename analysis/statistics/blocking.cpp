@@ -14,11 +14,11 @@ namespace vitrel {
 
 namespace {
 
-constexpr double rounding = 1e-9;           // of a mean: below it nothing fluctuates
-constexpr double degrees_of_an_error = 10;  // of freedom, behind the error of a run
-constexpr double excessive = 0.01;          // probability of a scatter that is not by chance
+constexpr double rounding = 1e-9;           // relative to a mean: below it nothing fluctuates
+constexpr double degrees_of_an_error = 10;  // degrees of freedom behind the error of a run
+constexpr double excessive = 0.01;          // probability below which scatter is not by chance
 
-/// Variance of the mean of values taken as independent.
+/// Returns the variance of the mean of values taken as independent.
 double squared_error(double count, double squares) {
   return squares / (count * (count - 1));
 }

@@ -7,9 +7,9 @@
 #include <string>
 
 /// @file
-/// GSL reports an error to a handler of the whole process, and its own one aborts. Every source that calls GSL includes
-/// this: when the program starts, or loads the library, GSL's handler is turned off, and errors are results only. A
-/// handler that was set before or is set later, by a program around the library, stays.
+/// GSL reports an error to a handler of the whole process, and its own handler aborts. Every source that calls GSL
+/// includes this header: when the program starts, or loads the library, GSL's handler is turned off, and errors are
+/// reported by results only. A handler that a program around the library has set before, or sets later, stays.
 namespace vitrel {
 
 inline const bool gsl_reports_by_results = [] {
@@ -18,7 +18,7 @@ inline const bool gsl_reports_by_results = [] {
   return true;
 }();
 
-/// Throws where a function of GSL failed for which only a defect or a lack of memory is a reason.
+/// Throws if a function of GSL failed that can fail only by a defect or a lack of memory.
 inline void check_gsl(int status) {
   if (status == GSL_ENOMEM) throw std::bad_alloc();
   if (status != GSL_SUCCESS) throw std::runtime_error(std::string("GSL: ") + gsl_strerror(status));

@@ -11,13 +11,14 @@ using WeightedResiduals =
 
 struct LeastSquares {
   Eigen::VectorXd parameters;
-  Eigen::MatrixXd covariance;  ///< (JᵀJ)⁻¹: of independent errors of the stated size
+  Eigen::MatrixXd covariance;  ///< (JᵀJ)⁻¹, for independent errors of the stated size
   double chi_square;           ///< Σ r²
   bool converged;
 };
 
-/// Minimises Σ r² over p, from a start in its valley, by the Levenberg–Marquardt method of GSL;
-/// converged where the last step was below 1e-10 of p, or the gradient vanished. Needs at least as many points as parameters.
+/// Minimises Σ r² over p, from a start in the valley of the minimum, by the Levenberg–Marquardt method of GSL. It has
+/// converged if the last step was below 1e-10 of p, or if the gradient vanished. It needs at least as many points as
+/// parameters.
 LeastSquares least_squares(std::size_t points, const Eigen::VectorXd& start,
                            const WeightedResiduals& residuals);
 

@@ -12,10 +12,10 @@ namespace vitrel {
 
 namespace {
 
-/// Directions at a right angle to a normal are so up to rounding.
+/// Directions at a right angle to a normal are so only up to rounding.
 constexpr double right_angle = 1e-9;
 
-/// Whether no direction away from a particle is more than a right angle from all outward normals at its
+/// Decides whether no direction away from a particle is more than a right angle from all outward normals at its
 /// contacts. If there are such directions, one of them is at a right angle to D − 1 independent normals.
 template <int Dim>
 class Blockade {
@@ -56,7 +56,7 @@ struct Touch {
   Vec<Dim> normal;  // outward
 };
 
-/// Takes rattlers out until there are none.
+/// Removes rattlers until there are none.
 template <int Dim>
 class Removal {
  public:
@@ -93,7 +93,7 @@ class Removal {
   std::vector<std::size_t> doubtful_;
 };
 
-/// Mean diameter of the disks (spheres) of equal areas (volumes).
+/// Returns the mean diameter of the disks (spheres) of equal areas (volumes).
 template <int Dim>
 double mean_diameter(const Configuration<Dim>& configuration) {
   constexpr double of_unit = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;

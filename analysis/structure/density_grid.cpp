@@ -16,8 +16,8 @@ constexpr double pi = std::numbers::pi;
 
 using SplineValues = std::array<double, spline_order>;
 
-/// The B-spline at the nodes around a point that lies `fraction` beyond the middle left one, from
-/// left to right; by the recursion over the order, upwards from 2.
+/// Returns the B-spline at the nodes around a point that lies `fraction` beyond the middle left one, from left to
+/// right. The recursion goes over the order, upwards from 2.
 SplineValues spline_values(double fraction) {
   SplineValues value{};
   value[0] = 1 - fraction;
@@ -43,12 +43,12 @@ double sum_of_images(double x) {
   }
 }
 
-/// (sin(π x)/(π x))^p.
+/// Returns (sin(π x)/(π x))^p.
 double transformed_spline(double x) {
   return x == 0 ? 1 : std::pow(std::sin(pi * x) / (pi * x), spline_order);
 }
 
-/// weight × the splines of the axes from K on, added to the nodes from `grid` on.
+/// Adds weight × the splines of the axes from K on to the nodes from `grid` on.
 template <std::size_t K, std::size_t Dim>
 void add_splines(double* grid, double weight, const std::array<SplineValues, Dim>& splines,
                  const std::array<std::size_t, Dim>& pitch) {
@@ -60,8 +60,8 @@ void add_splines(double* grid, double weight, const std::array<SplineValues, Dim
   }
 }
 
-/// Goes on to the next numbers, from −most to most, of all axes but the last one, the last of them fastest; false
-/// after the last.
+/// Advances to the next numbers, from −most to most, of all axes but the last one; the last of them changes fastest.
+/// Returns false after the last.
 template <std::size_t Dim>
 bool advance(std::array<int, Dim>& n, const std::array<int, Dim>& most) {
   for (std::size_t k = Dim - 1; k-- > 0;) {
@@ -82,7 +82,7 @@ Vec<static_cast<int>(Dim)> as_vector(const std::array<int, Dim>& n) {
   return vector;
 }
 
-/// Written out: the operator's care for infinities takes several times as long.
+/// The product is written out, because the operator takes several times as long for its care of infinities.
 std::complex<double> product(const std::complex<double>& p, const std::complex<double>& q) {
   return {p.real() * q.real() - p.imag() * q.imag(), p.real() * q.imag() + p.imag() * q.real()};
 }
@@ -96,7 +96,7 @@ double alias_bound(const Vec<Dim>& x) {
   return product - 1;
 }
 
-/// From a grid that goes on beyond the period in every direction, to n_x × … × (n_last/2 + 1) modes.
+/// The transform from a grid that goes on beyond the period in every direction to n_x × … × (n_last/2 + 1) modes.
 template <int Dim>
 struct DensityGrid<Dim>::Transform {
   explicit Transform(const std::array<int, Dim>& count) {
@@ -161,7 +161,7 @@ void DensityGrid<Dim>::list_wave_vectors(double from, double to) {
   while (advance(first.n, most));
 }
 
-/// Those that begin with the same numbers, as far as their last number other than 0 is positive.
+/// Lists the wave vectors that begin with the same numbers, as long as their last number other than 0 is positive.
 template <int Dim>
 void DensityGrid<Dim>::list_row(WaveVector<Dim> wave, double from, double to) {
   const Vec<Dim> unit = 2 * pi * lengths_.cwiseInverse();
@@ -190,8 +190,7 @@ void DensityGrid<Dim>::list(const WaveVector<Dim>& wave) {
   gain_.push_back((sum % 2 == 0 ? 1 : -1) / spline);
 }
 
-/// Where a point lies: the first of its p nodes in every direction, and how far beyond the middle left
-/// one.
+/// The place of a point: the first of its p nodes in every direction, and how far it lies beyond the middle left one.
 template <int Dim>
 struct DensityGrid<Dim>::Place {
   std::size_t point;
@@ -199,8 +198,8 @@ struct DensityGrid<Dim>::Place {
   double fraction[Dim];
 };
 
-// Sorted along the first axis: points next to each other then write to the same part of the grid, which
-// the cache keeps.
+// The places are sorted along the first axis: points next to each other then write to the same part of the grid, which
+// stays in the cache.
 template <int Dim>
 std::vector<typename DensityGrid<Dim>::Place> DensityGrid<Dim>::places(
     std::span<const Vec<Dim>> positions) const {

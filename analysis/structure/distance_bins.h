@@ -10,20 +10,20 @@
 
 namespace vitrel {
 
-/// Area (volume) between two radii.
+/// Returns the area (volume) between two radii.
 template <int Dim>
 double shell_volume(double inner, double outer) {
   if constexpr (Dim == 2) return std::numbers::pi * (outer * outer - inner * inner);
   return 4 * std::numbers::pi / 3 * (outer * outer * outer - inner * inner * inner);
 }
 
-/// Bins of a distance, the k-th from k to k + 1 steps, as far as whole bins fit into the range.
+/// Bins of a distance, the k-th from k to k + 1 steps; there are as many as whole bins fit into the range.
 class DistanceBins {
  public:
   DistanceBins(double range, double step)
-      // A quotient that rounding leaves just below a whole number is one.
+      // A quotient that rounding leaves just below a whole number is taken as that number.
       : step_(step), count_(static_cast<std::size_t>(range / step * (1 + 1e-12))) {}
-  /// Bins for the distances of pairs: below distance_max and half the shortest side of the box.
+  /// Makes bins for the distances of pairs, below distance_max and half the shortest side of the box.
   template <int Dim>
   DistanceBins(const Configuration<Dim>& configuration, const PairCorrelationOptions& options)
       : DistanceBins(std::min(options.distance_max, 0.5 * configuration.box.lengths().minCoeff()),
@@ -33,7 +33,8 @@ class DistanceBins {
   double step() const { return step_; }
   double range() const { return static_cast<double>(count_) * step_; }
 
-  /// Distances beyond the range have one more bin: cheaper than to tell them apart.
+  /// Returns the bin of a distance. Distances beyond the range go into one more bin, which is cheaper than to tell them
+  /// apart.
   std::size_t bin(double distance) const {
     return static_cast<std::size_t>(std::min(scale_ * distance, static_cast<double>(count_)));
   }
@@ -44,7 +45,8 @@ class DistanceBins {
     return middles;
   }
 
-  /// `found(k)` pairs in the k-th bin over those of an ideal gas with so many pairs in the area (volume) of its box.
+  /// Returns g, the `found(k)` pairs in the k-th bin over those of an ideal gas with this number of pairs in the area
+  /// (volume) of its box.
   template <int Dim, class Found>
   std::vector<double> over_ideal_gas(double pairs, const PeriodicBox<Dim>& box,
                                      Found&& found) const {

@@ -25,11 +25,11 @@ inline FourierArray<fftw_complex> complex_array(std::size_t n) {
   return FourierArray<fftw_complex>(obtained(fftw_alloc_complex(n)));
 }
 
-/// A plan of FFTW, which any number of threads may execute at a time; for planning they wait for each other.
+/// A plan of FFTW. Any number of threads may execute plans at a time; for planning they wait for each other.
 class FourierPlan {
  public:
-  /// `make` returns a new plan of a transform of `n` complex numbers. FFTW ends the process if its planner, which
-  /// needs no more than they do and two megabytes, runs out of memory; so this much is asked for first.
+  /// `make` returns a new plan of a transform of `n` complex numbers. FFTW ends the process if its planner runs out of
+  /// memory. The planner needs no more than these numbers and two megabytes, so this much memory is requested first.
   template <class Make>
   FourierPlan(std::size_t n, Make&& make) {
     constexpr std::size_t margin = std::size_t{2} << 20;
@@ -51,7 +51,7 @@ class FourierPlan {
   fftw_plan plan_;
 };
 
-/// The smallest even number from n on without prime factors above 7, for which transforms are fast.
+/// Returns the smallest even number ≥ n without prime factors above 7, for which transforms are fast.
 inline int fast_size(int n) {
   for (n += n % 2;; n += 2) {
     int rest = n;

@@ -11,7 +11,7 @@ namespace vitrel {
 
 namespace {
 
-/// The weighted mean of one number; `value` is 0 where there is no weight.
+/// Returns the weighted mean of one number; `value` is 0 where there is no weight.
 Estimate weighted_average(const std::vector<double>& value, const std::vector<double>& weight,
                           std::size_t shortest_block) {
   const double frames = static_cast<double>(value.size());

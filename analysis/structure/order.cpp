@@ -14,8 +14,8 @@ namespace {
 
 /// Every particle is an origin up to 4096 of them; beyond some 30 000 the number of pairs is limited.
 constexpr std::size_t max_origins = 4096, max_pairs = std::size_t{1} << 27;
-constexpr double min_order_in_plane = 0.5, min_order_in_space = 0.4;  // of a nematic
-constexpr double well_above_chance = 3;  // in units of the order of as many rotors without any
+constexpr double min_order_in_plane = 0.5, min_order_in_space = 0.4;  // limits of a nematic
+constexpr double well_above_chance = 3;  // in units of the order that as many rotors have by chance
 
 /// Centre and (cos 2θ, sin 2θ) of a particle that is not round.
 struct Rotor {
@@ -33,13 +33,13 @@ std::vector<Rotor> rotors_of(const Configuration2& configuration) {
   return rotors;
 }
 
-/// Distance of the nearest image.
+/// Returns the distance of the nearest image.
 double nearest_distance(const Vec2& lengths, const Vec2& from, const Vec2& to) {
   const Vec2 away = (to - from).cwiseAbs();
   return away.cwiseMin((lengths - away).cwiseAbs()).norm();
 }
 
-/// exp(6iα) of a vector in the direction α.
+/// Returns exp(6iα) of a vector in the direction α.
 std::complex<double> sixfold(const Vec2& along) {
   const double length = along.norm();
   const std::complex<double> unit{along.x() / length, along.y() / length};

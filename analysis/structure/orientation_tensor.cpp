@@ -17,7 +17,7 @@ constexpr std::size_t max_drawn = 1000, packings_drawn = 2000;
 // The smallest numbers of axes for which ⟨ρ⟩ and ⟨ρ²⟩ are finite.
 constexpr std::size_t min_for_mean = 5, min_for_deviation = 7;
 
-/// A random point of the unit disk, lifted to the sphere (Marsaglia, 1972): one random word an attempt.
+/// Lifts a random point of the unit disk to the sphere (Marsaglia, 1972); each attempt takes one random word.
 Vec3 isotropic_axis(Stream& draw) {
   while (true) {
     const std::uint64_t word = draw.bits();
@@ -70,7 +70,7 @@ Vec3 OrientationTensor::eigenvalues() const {
 double OrientationTensor::ratio() const {
   if (axes == 0) return std::numeric_limits<double>::quiet_NaN();
   const Vec3 values = eigenvalues();
-  // Below, the smallest eigenvalue is rounding.
+  // Below this, the smallest eigenvalue is rounding.
   return axes < 3 || values[0] <= 1e-15 ? infinity : values[2] / values[0];
 }
 

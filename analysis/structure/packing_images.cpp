@@ -12,10 +12,10 @@ namespace {
 /// One of the 27 ways in which coordinates are free or fixed to a side of the box.
 using Sides = Eigen::Vector3i;  // −1, 0 (free) or 1
 
-/// The smallest value with some coordinates fixed, if its point lies in the box, else infinity. `d` runs from
-/// the body's centre to that of the box.
+/// Returns the smallest value with some coordinates fixed if its point lies in the box, and infinity otherwise. `d`
+/// runs from the body's centre to that of the box.
 double min_value(const Mat3& sigma, const Vec3& d, const Vec3& half, const Sides& sides) {
-  // Free coordinates drop out of Σ_CC, here by rows and columns of the unit matrix.
+  // Free coordinates drop out of Σ_CC, because their rows and columns are those of the unit matrix.
   Mat3 marginal = Mat3::Identity();
   Vec3 to_side = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -32,7 +32,7 @@ double min_value(const Mat3& sigma, const Vec3& d, const Vec3& half, const Sides
   return to_side.dot(weights);
 }
 
-/// The middles of the widest gaps between points on a circle of this length, at most `count`.
+/// Returns the middles of at most `count` of the widest gaps between points on a circle of this length.
 std::vector<double> widest_gaps(std::vector<double> points, double length, std::size_t count) {
   for (double& x : points) x -= std::floor(x / length) * length;
   std::ranges::sort(points);
@@ -47,7 +47,7 @@ std::vector<double> widest_gaps(std::vector<double> points, double length, std::
   return middles;
 }
 
-/// d_Cᵀ Σ_CC⁻¹ d_C and its root's distance from 1, where C are the coordinates with a finite d.
+/// Returns |√(d_Cᵀ Σ_CC⁻¹ d_C) − 1|, where C are the coordinates with a finite d.
 double distance_from_touch(const Mat3& sigma, const Vec3& d) {
   Mat3 marginal = Mat3::Identity();
   Vec3 to_side = Vec3::Zero();
@@ -60,7 +60,7 @@ double distance_from_touch(const Mat3& sigma, const Vec3& d) {
   return std::abs(std::sqrt(to_side.dot(marginal.ldlt().solve(to_side))) - 1);
 }
 
-/// The same, minimised over all planes, edges and corners that are near a body at r.
+/// Returns the minimum of distance_from_touch over all planes, edges and corners that are near a body at r.
 double distance_from_lattice(const Mat3& sigma, const Vec3& r, const Vec3& lengths) {
   constexpr double unfixed = std::numeric_limits<double>::infinity();
   std::vector<double> offsets[3];

@@ -16,7 +16,7 @@ namespace {
 template <int Dim>
 struct Point;
 
-/// director = (cos 2θ, sin 2θ) and rotor = 1, or 0 of a round particle.
+/// Here director = (cos 2θ, sin 2θ) and rotor = 1; both are 0 for a round particle.
 template <>
 struct Point<2> {
   Point() = default;
@@ -35,7 +35,7 @@ struct Point<2> {
   std::size_t species = 0;
 };
 
-/// director: the figure axis, or 0 of a round particle.
+/// Here director is the figure axis, or 0 for a round particle.
 template <>
 struct Point<3> {
   Point() = default;
@@ -54,16 +54,16 @@ struct Point<3> {
   std::size_t species = 0;
 };
 
-/// Points sorted by cells, along x, row after row: the neighbours of a point are one run of memory per
-/// row, or two where they go on across the edge of the box.
+/// Points sorted by cells, along x, row after row: the neighbours of a point are one run of memory per row, or two if
+/// they go on across the edge of the box.
 template <int Dim>
 class SortedPoints {
  public:
-  /// The more cells there are along the range, the fewer candidates are in vain, and the shorter are the runs.
+  /// The more cells there are along the range, the fewer candidates are tested in vain, and the shorter are the runs.
   SortedPoints(const Configuration<Dim>& configuration, double range, double cells_along_range)
       : lengths_(configuration.box.lengths()), range_(range) {
     for (int k = 0; k < Dim; ++k) {
-      // No more cells than a few per point.
+      // More cells than a few per point are useless.
       const double most = 4 * std::pow(static_cast<double>(configuration.size()), 1.0 / Dim) + 1;
       count_[k] =
           static_cast<std::int64_t>(std::clamp(cells_along_range * lengths_[k] / range, 1.0, most));
@@ -110,7 +110,7 @@ class SortedPoints {
     for (const Point<Dim>& point : points) points_[next[cell_of(point)]++] = point;
   }
 
-  // Those within reach, also beyond the box; with room for rounding at the edges.
+  // Returns the cells within reach, also beyond the box, with a margin for rounding at the edges.
   Cells covered(double at, double reach, int k) const {
     const double half = reach + 1e-12 * lengths_[k];
     return {static_cast<std::int64_t>(std::floor((at - half) / width_[k])),
@@ -121,8 +121,8 @@ class SortedPoints {
     return cell >= 0 ? cell / count_[k] : -((count_[k] - 1 - cell) / count_[k]);
   }
 
-  // Visits those of the cells from `start` on that are within reach along the axes up to K. `offset`, added to a
-  // position, gives the separation.
+  // Visits the points in those of the cells from `start` on that are within reach along the axes up to K. `offset`,
+  // added to a position, gives the separation.
   template <int K, class Visit>
   void visit_cells(std::size_t i, double squared_reach, std::int64_t start, Vec<Dim> offset,
                    Visit& visit) const {
@@ -142,14 +142,14 @@ class SortedPoints {
     }
   }
 
-  // The points behind i in this row.
+  // Visits the points after i in this row.
   void visit_row(std::size_t i, const Cells& cells, std::int64_t start, const Vec<Dim>& row,
                  auto& visit) const {
     const Point<Dim>& here = points_[i];
     for (std::int64_t right = boxes_off(cells.low, 0); right <= boxes_off(cells.high, 0); ++right) {
       const std::int64_t low = std::max<std::int64_t>(cells.low - right * count_[0], 0);
       const std::int64_t high = std::min(cells.high - right * count_[0], count_[0] - 1);
-      // A copy of its own: the loop then keeps it in registers.
+      // The copy lets the loop keep it in registers.
       Vec<Dim> offset = row;
       offset[0] = static_cast<double>(right) * lengths_[0] - here.position[0];
       const std::size_t end = first_[static_cast<std::size_t>(start + high) + 1];
@@ -163,11 +163,11 @@ class SortedPoints {
   double range_;
   std::int64_t count_[Dim];
   double width_[Dim];
-  std::vector<std::size_t> first_;  // point of every cell, and the end
+  std::vector<std::size_t> first_;  // first point of every cell, and the end
   std::vector<Point<Dim>> points_;
 };
 
-/// Sums over the pairs of a bin.
+/// The sums over the pairs of a bin.
 struct Bin {
   double pairs = 0, rotor_pairs = 0;
   double first = 0, second = 0;  // powers of cos 2(θ_i − θ_j), or in space of (u_i·u_j)²
@@ -206,7 +206,7 @@ class SpeciesPairs {
   }
 
   bool is_mixture() const { return !found_.empty(); }
-  /// How many pairs of the groups a and b were met in this bin, in this order.
+  /// Returns how many pairs of the groups a and b were met in this bin, in this order.
   double& found(std::size_t a, std::size_t b, std::size_t bin) {
     return found_[(a * members_.size() + b) * (bins_.count() + 1) + bin];
   }
@@ -219,7 +219,7 @@ class SpeciesPairs {
   }
 
  private:
-  /// Empty where there is no such pair.
+  /// Returns g_AB of two species, which is empty if there is no such pair.
   std::vector<double> of_pair(std::size_t a, std::size_t b) {
     const double pairs = a == b ? 0.5 * members_[a] * (members_[a] - 1) : members_[a] * members_[b];
     if (pairs == 0) return {};
@@ -230,21 +230,21 @@ class SpeciesPairs {
 
   const DistanceBins& bins_;
   const PeriodicBox<Dim>& box_;
-  std::vector<double> members_, found_;  // particles of every species, and pairs
+  std::vector<double> members_, found_;  // particles of every species, and counts of pairs
 };
 
-/// r² cos 2θ, with r and θ of the separation from the axis of the point.
+/// Returns r² cos 2θ, with r and θ of the separation from the axis of the point.
 inline double along_axis(const Point<2>& point, const Vec2& separation) {
   const double x = separation.x(), y = separation.y();
   return point.director.x() * (x * x - y * y) + point.director.y() * (2 * x * y);
 }
-/// r² cos² θ.
+/// Returns r² cos² θ, with r and θ of the separation from the axis of the point.
 inline double along_axis(const Point<3>& point, const Vec3& separation) {
   const double along = point.director.dot(separation);
   return along * along;
 }
 
-/// Between the bins of θ: cos 2θ, in three dimensions cos² θ.
+/// Returns the edges between the bins of θ as cos 2θ, in three dimensions cos² θ.
 template <int Dim>
 auto axis_angle_edges() {
   std::array<double, axis_angle_bins<Dim> - 1> edges;
@@ -255,8 +255,8 @@ auto axis_angle_edges() {
   return edges;
 }
 
-/// The number of edges that θ is beyond: comparisons are faster than a division, and than a branch that is
-/// taken at random.
+/// Returns the number of edges that θ is beyond: comparisons are faster than a division, and than an unpredictable
+/// branch.
 std::size_t axis_angle_bin(const auto& edges, double along, double squared_distance) {
   std::size_t bin = 0;
   for (const double edge : edges) bin += along < edge * squared_distance;

@@ -8,10 +8,10 @@ namespace vitrel {
 
 namespace {
 
-/// Nodes of a grid: few enough for the caches, many enough for some hundred wave vectors per shell.
+/// Number of nodes of a grid, few enough for the caches and enough for some hundred wave vectors per shell.
 constexpr double max_nodes = 1 << 18;
 
-/// What the modes are made of: the density of every species, and the orientations.
+/// The fields of the modes: the density of every species, and the orientations.
 struct Fields {
   template <int Dim>
   explicit Fields(const Configuration<Dim>& c)
@@ -55,7 +55,7 @@ class ShellSums {
     if (fields.rotors > 0) sums_.orientation.assign(shells, 0);
   }
 
-  /// The wave vector k of these modes.
+  /// Adds wave vector k of these modes.
   void add(std::size_t shell, double wave_number, const std::vector<Modes>& modes, std::size_t k) {
     sums_.modes[shell] += 1;
     sums_.q[shell] += wave_number;

@@ -15,7 +15,8 @@ struct PairCorrelationOptions {
 };
 
 struct StructureOptions {
-  /// Evenly thinned beyond, and of more than 5000 particles to fewer (frames_for in frame_observable.h); 0: order only.
+  /// More frames than this are thinned evenly, and those of more than 5000 particles to still fewer (frames_for in
+  /// frame_observable.h). With 0 only the order is measured.
   std::size_t max_frames = 1000;
   ShellOptions shells;
   PairCorrelationOptions pairs;

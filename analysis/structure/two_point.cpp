@@ -53,7 +53,8 @@ struct TwoPointGrid::Transforms {
     });
   }
 
-  /// Computes for every shift of the grid how many of its points coincide with points of itself, times their number.
+  /// Counts for every shift of the grid how many of its points coincide with points of itself, and multiplies this by
+  /// their number.
   void correlate(double* grid) const {
     const auto out = complex_array(modes);
     fftw_execute_dft_r2c(forward->get(), grid, out.get());
@@ -70,7 +71,7 @@ struct TwoPointGrid::Transforms {
 };
 
 /// The shell of every shift of the grid, and the mean distance and number of the shifts of a shell. A shift by n − k
-/// nodes is one by k in the opposite direction, so that an eighth of the shifts tells the shells of all.
+/// nodes is one by k in the opposite direction, so an eighth of the shifts determines the shells of all.
 struct TwoPointGrid::Shells {
   static constexpr std::uint16_t beyond = 0xffff;
 
@@ -110,7 +111,7 @@ struct TwoPointGrid::Shells {
   }
 
   std::array<int, 3> count;
-  std::vector<std::uint16_t> of_shift;  // of shifts by up to half of the nodes
+  std::vector<std::uint16_t> of_shift;  // shells of shifts by up to half of the nodes
   std::vector<double> distance, shifts;
 };
 

@@ -10,8 +10,7 @@ namespace vitrel {
 
 namespace {
 
-/// A corner of a convex polygon about the origin, and the neighbour beyond the edge that begins
-/// there.
+/// A corner of a convex polygon about the origin, with the neighbour beyond the edge that begins there.
 struct Corner {
   Vec2 at;
   Vec2 to;
@@ -19,7 +18,7 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-/// Beyond the sides are images of the point i itself.
+/// Returns the box about point i; images of i itself lie beyond its sides.
 Polygon rectangle(const Vec2& lengths, std::size_t i) {
   const double x = 0.5 * lengths.x(), y = 0.5 * lengths.y();
   return {{{-x, -y}, {0, -2 * y}, i},
@@ -28,7 +27,8 @@ Polygon rectangle(const Vec2& lengths, std::size_t i) {
           {{-x, y}, {-2 * x, 0}, i}};
 }
 
-/// What of a polygon is nearer to the origin than to this neighbour, into `left`. False if that is all of it.
+/// Writes the part of a polygon that is nearer to the origin than to this neighbour into `left`. Returns false if that
+/// is all of it.
 bool cut(const Polygon& corners, const Vec2& to, std::size_t neighbor, Polygon& left) {
   const double half = 0.5 * to.squaredNorm();
   const auto excess = [&](const Corner& corner) { return corner.at.dot(to) - half; };
@@ -81,8 +81,8 @@ Voronoi::Voronoi(const Configuration2& configuration)
   }
 }
 
-/// Points of the cell are within half a box length of its centre along each side, and so each has the nearest image of
-/// another centre within a whole one: two images along each side.
+/// Points of the cell are within half a box length of its centre along each side. Each therefore has the nearest image
+/// of another centre within a whole box length of the centre, so two images along each side suffice.
 std::vector<Voronoi::Point> Voronoi::all_others(std::size_t place) const {
   std::vector<Point> others;
   for (std::size_t k = 0; k < order_.size(); ++k) {
@@ -105,7 +105,7 @@ std::vector<Voronoi::Point> Voronoi::others_within(double reach, std::size_t pla
   std::vector<Point> others;
   centres_.for_each_near(centres_[place], reach,
                          [&](std::size_t k, const Shift<2>&, const Vec2& d) {
-                           // The nearest own images are the sides of the box; the others cut off nothing.
+                           // The nearest own images are the sides of the box; the other own images cut off nothing.
                            if (k != place) others.push_back({d, d.squaredNorm(), order_[k]});
                          });
   return others;

@@ -8,7 +8,7 @@
 
 namespace vitrel {
 
-/// One side of a Voronoi cell, and the neighbour beyond it.
+/// One side of a Voronoi cell, with the neighbour beyond it.
 struct VoronoiEdge {
   Vec2 to;  ///< from the centre of the cell to that of the neighbour, which may be an own image
   double length;
@@ -17,33 +17,32 @@ struct VoronoiEdge {
 
 struct VoronoiCell {
   double area;
-  std::vector<VoronoiEdge> edges;  ///< counter-clockwise
+  std::vector<VoronoiEdge> edges;  ///< in counter-clockwise order
 };
 
-/// Voronoi cells of the centres in the periodic box: the cell of a particle is all that lies nearer
-/// to its centre than to any other, images included. Cells fill the box, and have six edges on the
-/// average.
+/// Voronoi cells of the centres in the periodic box: the cell of a particle is all that lies nearer to its centre than
+/// to any other, images included. Cells fill the box, and have six edges on the average.
 ///
-/// Steps for one cell: it begins as the box itself, whose sides are the bisectors to the nearest
-/// own images; every other centre cuts off what lies beyond its bisector, near ones first, until
-/// the next one is more than twice as far as the farthest corner. Where four cells meet in a point
-/// (square lattice), rounding may leave edges of about 1e-16 between opposite ones: weigh
-/// neighbours by the length of the edge.
+/// A cell begins as the box itself, whose sides are the bisectors to the nearest own images. Every other centre then
+/// cuts off what lies beyond its bisector, near ones first, until the next one is more than twice as far as the
+/// farthest corner. Where four cells meet in a point (square lattice), rounding may leave edges of about 1e-16 between
+/// opposite cells, so neighbours should be weighted by the length of the edge.
 ///
-/// Positions must be wrapped, and no two of them equal. Cost about O(N) for all cells if the
-/// density is about even.
+/// Positions must be wrapped, and no two of them may be equal. The cost is about O(N) for all cells if the density is
+/// about even.
 class Voronoi {
  public:
   explicit Voronoi(const Configuration2& configuration);
   VoronoiCell cell(std::size_t i) const;
-  /// The particles in an order in which neighbours mostly follow each other: their cells are made fastest.
+  /// Returns the particles in an order in which neighbours mostly follow each other; cells made in this order are made
+  /// fastest.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
-  /// Another centre, seen from that of a cell.
+  /// Another centre, seen from the centre of a cell.
   struct Point {
     Vec2 at;
-    double squared;  ///< distance
+    double squared;  ///< squared distance
     std::size_t number;
   };
 
@@ -51,8 +50,8 @@ class Voronoi {
   std::vector<Point> all_others(std::size_t place) const;
 
   Vec2 lengths_;
-  std::vector<std::uint32_t> order_, place_;  // of every particle in that order
-  double reach_;                              // within which the neighbours usually are
+  std::vector<std::uint32_t> order_, place_;  // place of every particle in that order
+  double reach_;                              // distance within which the neighbours usually are
   CellGrid<2> centres_;
 };
 

@@ -5,12 +5,10 @@
 
 #include "edmd/engine.h"
 
-/// @file
-/// One explicit instantiation of Simulation per file, so that the event loop is compiled once per
-/// body.
+/// Each file holds one explicit instantiation of Simulation, so that the event loop is compiled once per body.
 namespace vitrel {
 
-/// Complete the description of an engine of round particles.
+/// These texts complete the description of an engine of round particles.
 inline std::string rotation_of_round(const EngineOptions& options) {
   return contacts(options) == Contacts::rough
              ? " that spin, since contacts are rough"

@@ -57,14 +57,15 @@ class ChebyshevPanels {
   using Value = std::array<double, Values>;
   using Function = std::function<Value(const Point&)>;
 
-  /// The lower half of an inner node is at `next`, the upper half behind it; a leaf has panel `next`, or none.
+  /// The lower half of an inner node is at `next`, and the upper half follows it. A leaf has panel number `next`, or no
+  /// panel if that is −1.
   struct Node {
     double middle = 0;
     std::int32_t axis = -1;
     std::int32_t next = -1;
   };
-  /// The stored form: the tree, root first; and for each panel the middle and 2/width of each side and the
-  /// coefficients, with the values of each polynomial term side by side.
+  /// The stored form: the tree with its root first, and for each panel the middle and 2/width of each side, followed by
+  /// the coefficients, with the values of each polynomial term side by side.
   struct Content {
     std::vector<Node> nodes;
     std::vector<double> panels;
@@ -74,7 +75,7 @@ class ChebyshevPanels {
                   int threads);
   ChebyshevPanels(const Box<Dim>& box, Content content) : box_(box), content_(std::move(content)) {}
 
-  /// No value outside the box, or where the tolerance is not met.
+  /// Returns no value outside the box, or where the tolerance is not met.
   std::optional<Value> operator()(const Point& x) const;
 
   const Content& content() const { return content_; }
@@ -82,13 +83,13 @@ class ChebyshevPanels {
   std::size_t bytes() const {
     return content_.panels.size() * sizeof(double) + content_.nodes.size() * sizeof(Node);
   }
-  /// Whether the content is a valid tree: a file may contain anything.
+  /// Returns whether the content is a valid tree; a file may contain anything.
   static bool is_valid(const Content& content);
 
  private:
   static constexpr int terms = power(Nodes, Dim);
   static constexpr int coefficient_count = terms * Values;
-  static constexpr int row_size = Nodes * Values;  // of all powers of the last variable
+  static constexpr int row_size = Nodes * Values;  // size of all powers of the last variable
   static constexpr int head_size = 2 * Dim;        // centre and scale, before the coefficients
   static constexpr int panel_size = head_size + coefficient_count;
   static constexpr int test_points = 16 * Dim * Dim;
@@ -96,7 +97,7 @@ class ChebyshevPanels {
   struct Trial {
     std::vector<double> panel;
     bool accepted = false;
-    int axis = 0;  // to halve
+    int axis = 0;  // the variable to halve
   };
   struct Open {
     std::int32_t node;
@@ -169,7 +170,7 @@ auto ChebyshevPanels<Dim, Nodes, Values>::sum(const double* panel, const Point& 
   std::array<std::array<double, Nodes>, Dim> t;
   for (int axis = 0; axis < Dim; ++axis)
     t[axis] = chebyshev((x[axis] - panel[axis]) * panel[Dim + axis]);
-  // Along the last variable all powers and values at once.
+  // All powers and values along the last variable are summed at once.
   using Row = Eigen::Matrix<double, row_size, 1>;
   const double* row = panel + head_size;
   Row rows = Row::Zero();
@@ -220,7 +221,7 @@ std::vector<double> ChebyshevPanels<Dim, Nodes, Values>::sample(const Box<Dim>& 
   return values;
 }
 
-// Values at the zeros of T_Nodes, `stride` apart, become coefficients.
+// Turns values at the zeros of T_Nodes, `stride` apart, into coefficients.
 template <int Dim, int Nodes, int Values>
 void ChebyshevPanels<Dim, Nodes, Values>::transform(double* values, std::ptrdiff_t stride) {
   std::array<double, Nodes> coefficients{};
@@ -231,7 +232,7 @@ void ChebyshevPanels<Dim, Nodes, Values>::transform(double* values, std::ptrdiff
   for (int j = 0; j < Nodes; ++j) values[j * stride] = coefficients[j];
 }
 
-// The largest coefficient of the two highest powers of the variable whose powers are `stride` apart.
+// Returns the largest coefficient of the two highest powers of the variable whose powers are `stride` apart.
 template <int Dim, int Nodes, int Values>
 double ChebyshevPanels<Dim, Nodes, Values>::tail(const std::vector<double>& coefficients,
                                                  int stride) {
@@ -244,7 +245,7 @@ double ChebyshevPanels<Dim, Nodes, Values>::tail(const std::vector<double>& coef
 template <int Dim, int Nodes, int Values>
 bool ChebyshevPanels<Dim, Nodes, Values>::agrees(const Box<Dim>& box, const Function& function,
                                                  const double* panel, double tolerance) {
-  // Points of a low-discrepancy lattice (Roberts's generalised golden ratio), moved to the grid.
+  // The test points are those of a low-discrepancy lattice (Roberts's generalised golden ratio), moved to the grid.
   constexpr double ratios[] = {1.61803398874989484820, 1.32471795724474602596,
                                1.22074408460575947536};
   const double ratio = ratios[Dim - 1];

@@ -6,14 +6,14 @@
 /// @file
 /// Forces between two soft, frictionless spheres (disks) in contact, and their natural scales.
 ///
-/// A force is a value type: the parameters of a material in SI units and the functions of `ContactForce`. Two materials
-/// touch like two bodies in series: both feel the force, and each takes its share of the compression, to first order in
-/// the damping (`mixed(one, other)` of each force). To add a force, write such a type in its own header, and a source
-/// file with the explicit instantiations, like linear_dashpot.h and linear_dashpot.cpp.
+/// A force is a value type that holds the parameters of a material in SI units and provides the functions of
+/// `ContactForce`. Two materials touch like two bodies in series: both feel the force, and each takes its share of the
+/// compression, to first order in the damping (`mixed(one, other)` of each force). To add a force, write such a type in
+/// its own header, and a source file with the explicit instantiations, like linear_dashpot.h and linear_dashpot.cpp.
 ///
-/// ξ = l − r > 0 is the compression, l = R₁ + R₂ and r the distance of the centres; ξ̇ > 0 while the pair approaches. The
-/// force chooses a length X and a time T such that dξ̃/dt̃ = 1 at first contact (X/T is the normal speed). With ξ̃ = ξ/X
-/// and t̃ = t/T, every force must have the form
+/// ξ = l − r > 0 is the compression, where l = R₁ + R₂ and r is the distance of the centres; ξ̇ > 0 while the pair
+/// approaches. The force chooses a length X and a time T such that dξ̃/dt̃ = 1 at first contact (X/T is the normal
+/// speed). With ξ̃ = ξ/X and t̃ = t/T, every force must have the form
 ///
 ///     F_n T²/(m_eff X) = h(ξ̃) (E(ξ̃) + c_dis dξ̃/dt̃),   E(0) = 0, E increasing, h > 0 for ξ̃ > 0,
 ///
@@ -40,11 +40,11 @@ struct ContactScales {
   double damping;  ///< c_dis, dimensionless; 0: elastic
 };
 
-/// `force(ξ, ξ̇, pair)`: F_n in N, positive if repulsive, for ξ ≥ 0. The formula can become negative;
-/// the contact ends before that (restitution.h).
-/// `scales(speed, pair)`: for a normal speed > 0 at first contact, m/s.
-/// `profile(s)`, `elastic(s)`, `elastic_slope(s)`: h, E and dE/ds as functions of s = √ξ̃; `elastic_inverse(E)`: s ≥ 0.
-/// l/X ∝ speed^(−2p) and c_dis ∝ (l/X)^(−q): p = `length_exponent`, q = `damping_exponent`.
+/// A force provides the following. `force(ξ, ξ̇, pair)` is F_n in N for ξ ≥ 0, positive if repulsive. The formula can
+/// become negative, but the contact ends before that (restitution.h). `scales(speed, pair)` returns the scales for a
+/// normal speed > 0 at first contact, in m/s. `profile(s)`, `elastic(s)` and `elastic_slope(s)` are h, E and dE/ds as
+/// functions of s = √ξ̃; `elastic_inverse(E)` is the s ≥ 0 with this E. Finally, l/X ∝ speed^(−2p) and
+/// c_dis ∝ (l/X)^(−q) with p = `length_exponent` and q = `damping_exponent`.
 template <class Force>
 concept ContactForce = requires(const Force& material, const ContactPair& pair, double x) {
   { Force::name } -> std::convertible_to<std::string_view>;

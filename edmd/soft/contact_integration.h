@@ -15,7 +15,7 @@
 #include "edmd/soft/restitution.h"
 
 /// @file
-/// The integration described in restitution.h; included by the sources that instantiate a force.
+/// The integration described in restitution.h. This header is included by the sources that instantiate a force.
 namespace vitrel {
 
 template <ContactForce Force>
@@ -41,12 +41,12 @@ class ContactIntegration {
   }
 
  private:
-  // s, v, ρ, φ, t of restitution.h as functions of σ.
+  // A state holds s, v, ρ, φ and t of restitution.h as functions of σ.
   using State = std::array<double, 5>;
   using Stepper =
       boost::numeric::odeint::runge_kutta_fehlberg78<State, double, State, double,
                                                      boost::numeric::odeint::array_algebra>;
-  // That of the library takes std::pow, whose bits depend on the processor.
+  // The step adjuster of the library uses std::pow, whose bits depend on the processor.
   struct StepAdjuster : boost::numeric::odeint::default_step_adjuster<double, double> {
     static double factor(double error, int order) {
       return 0.9 * exponential(-logarithm(error) / order);
@@ -64,12 +64,12 @@ class ContactIntegration {
   using ControlledStepper =
       boost::numeric::odeint::controlled_runge_kutta<Stepper, ErrorChecker, StepAdjuster>;
 
-  // Steppers are copied with their scratch memory; as a static object it is initialised.
+  // Steppers are copied with their scratch memory, which is initialised because this object is static.
   static inline const Stepper blank{};
   static constexpr double step_error = 1e-14;
   // Errors are relative to the integrated quantities; this only prevents 0/0.
   static constexpr double min_error = 1e-100;
-  // About 100 are usual, 1000 if particles collide centre to centre.
+  // About 100 steps are usual, and 1000 if particles collide centre to centre.
   static constexpr int max_steps = 100000;
   // Impacts with smaller impact parameters are head-on to rounding.
   static constexpr double smallest_offset = 1e-15;
@@ -79,7 +79,7 @@ class ContactIntegration {
     return tangent * tangent / (impact_.distance * rho * rho * rho);
   }
   double approach_rate(const State& x) const { return x[1] - kappa_ * Force::elastic(x[0]); }
-  // E + c_dis u, to which the force is proportional.
+  // Returns E + c_dis u, to which the force is proportional.
   double excess(const State& x) const {
     if (kappa_ > 0) return impact_.damping * x[1];
     return std::copysign(Force::elastic(std::abs(x[0])), x[0]) + impact_.damping * x[1];
@@ -98,7 +98,7 @@ class ContactIntegration {
     slope[4] = slow;
   }
 
-  // The end of the contact, in the step from `before` to `after`, which is beyond it.
+  // Finds the end of the contact in the step from `before` to `after`, which is beyond it.
   State end_of_contact(const State& before, const State& after, double step) const {
     Stepper stepper;
     State x;

@@ -6,12 +6,12 @@
 
 namespace vitrel {
 
-/// F_n = k ξ + γ ξ̇, a spring and a dashpot.
+/// A spring and a dashpot, F_n = k ξ + γ ξ̇.
 ///
 ///     T = 1/ω,  X = speed/ω,  ω = √(k/m_eff),   F̃ = ξ̃ + c_dis dξ̃/dt̃,  c_dis = γ T/m_eff
 ///
-/// In the limit of hard spheres the coefficient of restitution depends on c_dis only, not on the speed.
-/// Ranges in the source: k 10³ … 10⁶ N/m, γ 0.01 … 1.25 kg/s. Source: mueller2013, section V.1.
+/// In the limit of hard spheres the coefficient of restitution depends on c_dis only, not on the speed. The source
+/// covers k from 10³ to 10⁶ N/m and γ from 0.01 to 1.25 kg/s. Source: mueller2013, section V.1.
 struct LinearDashpot {
   static constexpr std::string_view name = "linear_dashpot";
   static constexpr double length_exponent = 0.5;
@@ -34,7 +34,7 @@ struct LinearDashpot {
   static double elastic_inverse(double elastic) { return std::sqrt(elastic); }
 };
 
-/// 2/k = 1/k₁ + 1/k₂,  2 γ/k² = γ₁/k₁² + γ₂/k₂²
+/// The pair has k and γ with 2/k = 1/k₁ + 1/k₂ and 2 γ/k² = γ₁/k₁² + γ₂/k₂².
 inline LinearDashpot mixed(const LinearDashpot& one, const LinearDashpot& other) {
   const double k1 = one.stiffness, k2 = other.stiffness;
   const double share1 = k2 / (k1 + k2), share2 = k1 / (k1 + k2);

@@ -5,21 +5,21 @@
 /// @file
 /// The restitution matrix: the effect of a collision of finite duration on two soft spheres.
 ///
-/// While in contact, the pair moves in a plane about its centre of mass; r is the distance of the centres and φ the angle
-/// of their line. With the scales X and T of the force (contact_force.h), tildes omitted,
+/// While in contact, the pair moves in a plane about its centre of mass; r is the distance of the centres and φ the
+/// angle of their line. With the scales X and T of the force (contact_force.h), and with tildes omitted,
 ///
 ///     φ' = c_φ/r²,   r'' = c_φ²/r³ + F(l − r, −r'),   φ(0) = 0, r(0) = l, r'(0) = −1,
 ///     c_φ = T L/(X² m_eff) = l (tangential speed/normal speed),   L the angular momentum.
 ///
 /// The contact ends at the first τ at which the spheres separate, r' > 0, and the force vanishes. With damping this
-/// happens before r = l, since from there on the force between separating spheres would attract: E(l − r) = c_dis r', for
-/// both forces l − r = c_dis r'. F falls while r' > 0 and F > 0, so there is only one such time.
+/// happens before r = l, since from there on the force between separating spheres would attract: E(l − r) = c_dis r',
+/// for both forces l − r = c_dis r'. F falls while r' > 0 and F > 0, so there is only one such time.
 ///
 ///     ε_r = r(τ)/l,   ε_φ = φ(τ),   ε_t = τ,   ε_ṙ = r'(τ)/r'(0) < 0
 ///
-/// and φ'(τ)/φ'(0) = 1/ε_r². Elastic (c_dis = 0): ε_r = 1 and ε_ṙ = −1 exactly. The model allows particles softer than
-/// l ≈ 1 to pass through each other. A head-on collision is the limit c_φ → 0: ε_φ = 0, or π if they pass through each
-/// other.
+/// and φ'(τ)/φ'(0) = 1/ε_r². Elastic contacts (c_dis = 0) have ε_r = 1 and ε_ṙ = −1 exactly. The model allows particles
+/// softer than l ≈ 1 to pass through each other. A head-on collision is the limit c_φ → 0: ε_φ is 0, or π if the
+/// particles pass through each other.
 ///
 /// Steps of the integration, in the variables s = √(l − r), ρ = r/l, φ, t and v:
 ///   1. dt = 2sρ dσ makes the motion smooth at first contact and, through ρ, where the centres nearly meet.
@@ -28,9 +28,9 @@
 ///   3. Adaptive Runge–Kutta–Fehlberg steps of order 8, with a relative error of 10⁻¹⁴ each.
 ///   4. The end is a root in the length of the last step.
 ///
-/// Accuracy: 10⁻¹² relative of each coefficient (docs/validation.md), except near the jump of ε_φ from 0 to π: head-on
-/// and soft, at l = 1 if elastic. Cost: about 20 µs.
-/// Source: mueller2013; for the end of contact schwager2007.
+/// Accuracy: each coefficient has a relative error of 10⁻¹² (docs/validation.md), except near the jump of ε_φ from 0 to
+/// π, which occurs in head-on impacts of soft particles, at l = 1 if they are elastic. Cost: about 20 µs. Sources:
+/// mueller2013, and schwager2007 for the end of contact.
 namespace vitrel {
 
 /// An impact in the scales of its force.
@@ -47,8 +47,8 @@ struct Restitution {
   double rate;      ///< ε_ṙ, −1 ≤ ε_ṙ < 0
 };
 
-/// `normal_speed` > 0 and `tangential_speed` ≥ 0 are those of the relative velocity of the centres at
-/// first contact, m/s; the scales are those of the normal speed.
+/// `normal_speed` > 0 and `tangential_speed` ≥ 0 are the components of the relative velocity of the centres at first
+/// contact, in m/s; `scales` are those at the normal speed.
 inline ScaledImpact scaled_impact(const ContactScales& scales, const ContactPair& pair,
                                   double normal_speed, double tangential_speed) {
   const double distance = pair.distance / scales.length;
@@ -60,8 +60,8 @@ ScaledImpact scaled_impact(const Force& force, const ContactPair& pair, double n
   return scaled_impact(force.scales(normal_speed, pair), pair, normal_speed, tangential_speed);
 }
 
-/// Integrates the contact as above. Depends on the form of the force only, not on the material. Throws
-/// InvariantError if the contact does not end (non-finite input).
+/// Integrates the contact as described above. The result depends on the form of the force only, not on the material.
+/// Throws InvariantError if the contact does not end (non-finite input).
 template <ContactForce Force>
 Restitution integrate_contact(const ScaledImpact& impact);
 

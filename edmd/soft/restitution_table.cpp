@@ -81,7 +81,7 @@ std::string key_of(const ForceForm& form, const RestitutionDomain& domain,
       domain.m.high, domain.d.low, domain.d.high, options.tolerance, options.min_width);
 }
 
-/// The checksum of all numbers. A program that changes the file makes the checksums of HDF5 right again, but not this
+/// Returns the checksum of all numbers. A program that changes the file corrects the checksums of HDF5, but not this
 /// one.
 std::uint64_t checksum_of(const auto& content) {
   WordChecksum checksum;
@@ -110,7 +110,7 @@ void write_panels(h5::Group& group, const auto& panels) {
   group.set_attribute("checksum", checksum_of(panels.content()));
 }
 
-/// Throws FileError if the file is unreadable, not a tree of panels, or not as vitrel wrote it.
+/// Reads the panels. Throws FileError if the file is unreadable, not a tree of panels, or not as vitrel wrote it.
 template <class Panels>
 Panels read_panels(const h5::Group& group, const typename Panels::Bounds& box) {
   typename Panels::Content content;

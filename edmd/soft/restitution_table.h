@@ -17,22 +17,22 @@
 /// @file
 /// The restitution matrix from a table, in a small fraction of the time of an integration.
 ///
-/// Variables: those of the source, in which the impacts of all materials, radii and speeds of given
-/// ranges fill a rectangle. Instead of ln c_dis the table uses the part of it that does not depend on the impact,
+/// The variables are those of the source, in which the impacts of all materials, radii and speeds of given ranges fill
+/// a rectangle. Instead of ln c_dis the table uses the part of it that does not depend on the impact:
 ///
 ///     g = ln(c_φ/l) = ln(tangential speed/normal speed)     (source: ln c_φ/c_φ^min + g^min)
 ///     m = ln l − p ln(1 + (c_φ/l)²) = ln(l/X) at full speed    (source: ln l/l^min + m^min)
 ///     d = ln c_dis + q ln l                                      (of the pair alone)
 ///
-/// with p and q of the force (contact_force.h): dashpot 1/2, 0; viscoelastic 2/5, 1/4. Particles of
-/// a few species thus need only two dimensions for each pair of species, since d is given. Elastic particles need
-/// two for any radii, with d = −∞. Damped particles with radii from a range need three, and the range of d is
-/// narrow.
+/// with p and q of the force (contact_force.h): 1/2 and 0 for the dashpot, 2/5 and 1/4 for viscoelastic spheres. Since
+/// d is given for each pair of species, particles of a few species need only two dimensions for each pair. Elastic
+/// particles of any radii also need two, with d = −∞. Damped particles with radii from a range need three, and the
+/// range of d is narrow.
 ///
-/// The table contains ln(−ε_ṙ), ln ε_t and ln(ε_φ l²/c_φ) as polynomials (chebyshev_panels.h: Nodes 8 in two
-/// dimensions, 6 in three); E(l (1 − ε_r)) = −c_dis ε_ṙ then gives ε_r. Elastic: ε_r = 1 and ε_ṙ = −1.
-/// The tolerance is the relative error of ε_ṙ and ε_t; that of ε_φ and of 1 − ε_r is at most twice as
-/// large. Measured: docs/validation.md. Source: mueller2013.
+/// The table contains ln(−ε_ṙ), ln ε_t and ln(ε_φ l²/c_φ) as polynomials (chebyshev_panels.h, with 8 nodes in two
+/// dimensions and 6 in three); E(l (1 − ε_r)) = −c_dis ε_ṙ then gives ε_r. Elastic contacts have ε_r = 1 and ε_ṙ = −1.
+/// The tolerance is the relative error of ε_ṙ and ε_t; the error of ε_φ and of 1 − ε_r is at most twice as large.
+/// Measured errors are in docs/validation.md. Source: mueller2013.
 namespace vitrel {
 
 struct ValueRange {
@@ -41,22 +41,22 @@ struct ValueRange {
   bool operator==(const ValueRange&) const = default;
 };
 
-/// `d.low == d.high`: only this value of d; see `elastic_damping`.
+/// The ranges of g, m and d. If `d.low == d.high`, the table holds only this value of d; see `elastic_damping`.
 struct RestitutionDomain {
   ValueRange g, m, d;
 
   bool operator==(const RestitutionDomain&) const = default;
 };
 
-/// d of elastic contacts.
+/// The range of d for elastic contacts.
 inline constexpr ValueRange elastic_damping{-std::numeric_limits<double>::infinity(),
                                             -std::numeric_limits<double>::infinity()};
 
-/// The usual range of eccentricities, as g = ln(e/√(1 − e²)). A fraction of 10⁻⁴ of the collisions of a gas in three
-/// dimensions, 10⁻³ in two, lies outside.
+/// The usual range of eccentricities, as g = ln(e/√(1 − e²)). Of the collisions of a gas, a fraction of 10⁻⁴ in three
+/// dimensions, and 10⁻³ in two, lies outside.
 inline constexpr ValueRange typical_obliqueness{-6.9, 4.6};
 
-/// The domain of the collisions of these pairs at relative speeds from `slowest` to `fastest` > 0, m/s. For
+/// Returns the domain of the collisions of these pairs at relative speeds from `slowest` to `fastest` > 0, in m/s. For
 /// polydisperse radii pass the pairs of a grid of radii, since m and d need not be extremal at the ends.
 template <ContactForce Force>
 RestitutionDomain restitution_domain(const Force& force, std::span<const ContactPair> pairs,
@@ -64,11 +64,11 @@ RestitutionDomain restitution_domain(const Force& force, std::span<const Contact
 
 class RestitutionTable {
  public:
-  /// Integrates in parallel. Ranges, except that of d, must be finite and not empty.
+  /// Integrates the contacts in parallel. All ranges except that of d must be finite and not empty.
   RestitutionTable(const ForceForm& form, const RestitutionDomain& domain,
                    const PanelOptions& options, int threads);
 
-  /// No value outside the domain, or where the tolerance is not met.
+  /// Returns no value outside the domain, or where the tolerance is not met.
   std::optional<Restitution> operator()(const ScaledImpact& impact) const;
 
   std::size_t panels() const;
@@ -76,7 +76,7 @@ class RestitutionTable {
 
   /// Throws FileError.
   void save(const std::filesystem::path& file) const;
-  /// Empty if the file is missing, damaged, or of another table or program version.
+  /// Returns no table if the file is missing, damaged, or of another table or program version.
   static std::optional<RestitutionTable> load(const std::filesystem::path& file,
                                               const ForceForm& form,
                                               const RestitutionDomain& domain,
@@ -96,8 +96,8 @@ class RestitutionTable {
   Panels panels_;
 };
 
-/// Loads the table from the file if that exists; otherwise builds and saves it. If saving fails, the table is still
-/// valid, and `save_error` says why.
+/// The result of `load_or_build_table`, which loads the table from the file if that exists, and otherwise builds and
+/// saves it. If saving fails, the table is still valid, and `save_error` says why.
 struct CachedTable {
   RestitutionTable table;
   bool loaded;

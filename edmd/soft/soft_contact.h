@@ -18,27 +18,30 @@
 ///          end of the contact, and both particles continue with the velocity of the centre of mass;
 ///     E^v  a time τ later, one for each particle: the particle takes its velocity after the contact.
 ///
-/// From then on the trajectories are exact. Two exceptions, both counted:
+/// From then on the trajectories are exact. There are two exceptions, both counted:
 ///
-///     (a)  in its new position one of the pair would be closer than contact to a third particle (and closer than
+///     (a)  In its new position one of the pair would be closer than contact to a third particle (and closer than
 ///          before): the two collide as hard spheres, with the coefficient of restitution −ε_ṙ. In dense, strongly
-///          damped systems such collisions would collapse (inelastic_collapse.h): if one of the two had one within the
-///          duration τ of this contact before, the collision is elastic, as in the contact-time model, and counted;
-///     (b)  a third particle hits one of the pair before τ has passed: its E^v is executed first.
+///          damped systems such collisions would collapse (inelastic_collapse.h). If one of the two had another such
+///          collision less than the duration τ of this contact before, the collision is therefore elastic, as in the
+///          contact-time model, and counted.
+///     (b)  A third particle hits one of the pair before τ has passed: its E^v is executed first.
 ///
-/// Conserved to rounding: momentum; energy, if elastic; angular momentum, except in (b), since the distance of the pair
-/// has changed when the partner is released later. Nothing is lost if both are released together.
+/// Momentum is conserved to rounding, and so is the energy of elastic contacts. Angular momentum is conserved to
+/// rounding except in (b), since the distance of the pair has changed when the partner is released later. It is
+/// conserved there as well if both are released together.
 ///
-/// While in contact, particles count with the velocities after the contact. The energy of an elastic gas, potential energy
-/// included, therefore equals its kinetic energy. For the pressure a contact counts as
+/// While in contact, particles count with their velocities after the contact. The energy of an elastic gas, potential
+/// energy included, therefore equals its kinetic energy. A contact contributes to the pressure as
 ///
 ///     ∫ (d·F + m_eff v²) dt − τ m_eff v'² = [m_eff d·v]₀^τ − τ m_eff v'²,
 ///
-/// d the distance, v the relative velocity and v' that after the contact; this is exact together with the kinetic energy.
+/// where d is the distance, v the relative velocity and v' the one after the contact; this is exact together with the
+/// kinetic energy.
 ///
-/// With damping a pair leaves contact closer than the sum of its radii. While it separates it does not collide. If a third
-/// particle makes it approach again before it is apart, a new contact begins at the current distance: no collision is
-/// lost, and the surfaces still recede.
+/// With damping, a pair leaves contact closer than the sum of its radii, and does not collide while it separates. If a
+/// third particle makes it approach again before it is apart, a new contact begins at the current distance: no
+/// collision is lost, and the surfaces still recede.
 ///
 /// Validity: dilute systems. Source: mueller2013, section VI.
 namespace vitrel {
@@ -48,13 +51,14 @@ class SoftContact {
  public:
   virtual ~SoftContact() = default;
 
-  /// Speeds as in scaled_impact; the duration is in simulated time, τ = ε_t T. Counts integrations.
+  /// Returns the restitution, with the duration in simulated time, τ = ε_t T. The speeds are those of scaled_impact.
+  /// Counts integrations.
   virtual Restitution collide(const ContactPair& pair, double normal_speed, double tangential_speed,
                               RunCounters& counters) = 0;
 };
 
-/// A force with its coefficients, tabulated or integrated (restitution_table.h), which map a ScaledImpact to a
-/// Restitution and count their integrations.
+/// A force with its coefficients, which are tabulated or integrated (restitution_table.h). The coefficients map a
+/// ScaledImpact to a Restitution and count their integrations.
 template <ContactForce Force, class Coefficients>
 class SoftContactOf final : public SoftContact {
  public:
@@ -76,14 +80,14 @@ class SoftContactOf final : public SoftContact {
   Coefficients coefficients_;
 };
 
-/// Particle 2 relative to particle 1, r = r₂ − r₁.
+/// The motion of particle 2 relative to particle 1, r = r₂ − r₁.
 template <int Dim>
 struct RelativeMotion {
   Vec<Dim> position, velocity;
 };
 
-/// The relative motion after a contact, from that at first contact. With n = r/|r|, t the direction of the tangential
-/// velocity, and u and w the speeds along −n and t:
+/// Returns the relative motion after a contact from that at first contact. With n = r/|r|, t the direction of the
+/// tangential velocity, and u and w the speeds along −n and t:
 ///
 ///     r' = ε_r |r| n',   v' = −ε_ṙ u n' + (w/ε_r) t',
 ///     n' = cos ε_φ n + sin ε_φ t,   t' = cos ε_φ t − sin ε_φ n

@@ -13,9 +13,8 @@ namespace vitrel {
 ///     T = κ^(−2/5) speed^(−1/5),  X = κ^(−2/5) speed^(4/5),  κ = ρ/m_eff
 ///     F̃ = ξ̃^(1/2) (ξ̃ + c_dis dξ̃/dt̃),  c_dis = 3A/(2T)
 ///
-/// Disks are modelled as spheres. Validity: ξ well below R_eff.
-/// Ranges in the source: Y 0.01 … 100 GPa, ν 0.2 … 0.5, A 10⁻⁶ … 1 s. Sources: mueller2013,
-/// section V.2; brilliantov1996.
+/// Disks are modelled as spheres. Validity: ξ well below R_eff. The source covers Y from 0.01 to 100 GPa, ν from 0.2 to
+/// 0.5 and A from 10⁻⁶ to 1 s. Sources: mueller2013, section V.2; brilliantov1996.
 struct Viscoelastic {
   static constexpr std::string_view name = "viscoelastic";
   static constexpr double length_exponent = 0.4;
@@ -25,7 +24,7 @@ struct Viscoelastic {
   double poissons_ratio;        ///< ν, −1 < ν ≤ 1/2
   double dissipative_time = 0;  ///< A ≥ 0, s
 
-  /// ρ, N/m^(3/2)
+  /// Returns ρ in N/m^(3/2).
   double stiffness(const ContactPair& pair) const {
     return 2 * youngs_modulus * std::sqrt(pair.radius) /
            (3 * (1 - poissons_ratio * poissons_ratio));
@@ -45,8 +44,8 @@ struct Viscoelastic {
   static double elastic_inverse(double elastic) { return std::sqrt(elastic); }
 };
 
-/// With the effective modulus E, 1/E = 1/E₁ + 1/E₂, E_i = Y_i/(1 − ν_i²): A = E (A₁/E₁ + A₂/E₂), and ρ = 4/3 E √R_eff,
-/// that of Y = 2 E and ν = 0.
+/// The pair has the effective modulus E with 1/E = 1/E₁ + 1/E₂ and E_i = Y_i/(1 − ν_i²), so A = E (A₁/E₁ + A₂/E₂), and
+/// ρ = 4/3 E √R_eff is that of Y = 2 E and ν = 0.
 inline Viscoelastic mixed(const Viscoelastic& one, const Viscoelastic& other) {
   const auto plane_modulus = [](const Viscoelastic& v) {
     return v.youngs_modulus / (1 - v.poissons_ratio * v.poissons_ratio);
