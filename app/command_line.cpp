@@ -106,7 +106,7 @@ std::vector<std::string> all_formats() {
   return names;
 }
 
-/// The options of all commands, each filled where its command is the one chosen.
+/// The options of all commands. Only those of the chosen command are filled.
 class CommandLine : public ProgramCommandLine {
  public:
   CommandLine(int count, char** words)
@@ -151,7 +151,7 @@ class CommandLine : public ProgramCommandLine {
     return sub;
   }
 
-  /// Options take long to make: those of other commands are for texts about all of them.
+  /// Options take long to create, so those of other commands exist only for texts about all commands.
   bool needs_options(const CLI::App& command) const {
     return command.get_name() == called_ || called_ == "help" || called_ == "man" ||
            called_ == "completion";
@@ -426,7 +426,7 @@ class CommandLine : public ProgramCommandLine {
     add_print(sub, impact_.print);
   }
 
-  // For the help only: the words after it are passed on unparsed.
+  // This entry is for the help only: run_command_line passes the words after `bench` on without parsing them.
   void add_bench() {
     add_command(
         app_, "bench",
@@ -473,8 +473,8 @@ class CommandLine : public ProgramCommandLine {
   PairOptions pair_;
   ImpactOptions impact_;
   ParamsOptions params_;
-  std::string shell_;   ///< of `completion`
-  std::string called_;  ///< the command, if there is one
+  std::string shell_;   ///< argument of `completion`
+  std::string called_;  ///< name of the command; empty if there is none
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
 #pragma once
 
-/// The program `vitrel`, called by its main(); in packages across the border of a shared library.
+/// The program `vitrel`, which its main() calls. In packages, main() calls it in a shared library.
 extern "C" [[gnu::visibility("default")]] int vitrel_main(int count, char** words);

@@ -1,4 +1,4 @@
-// vitrel-bench: the command line of all studies. The only file here that includes CLI11.
+// vitrel-bench: the command line of all studies. Only this file of bench includes CLI11.
 #include <functional>
 
 #include "app/terminal/program_command_line.h"
@@ -53,7 +53,7 @@ class CommandLine : public ProgramCommandLine {
         defaults);
   }
 
-  /// A number that has a default, which the sentence tells.
+  /// Adds a number that has a default, which the sentence states.
   template <class Number>
   void add_number(CLI::App& sub, const std::string& name, Number& number, const std::string& what) {
     if (number > 0)
@@ -123,7 +123,7 @@ class CommandLine : public ProgramCommandLine {
 int main(int count, char** words) {
   vitrel::bench::CommandLine command_line(count, words);
   if (count != 1) return command_line.execute(count, words);
-  std::string help = "help";  // without a word: the list of the studies
+  std::string help = "help";  // without a word, help prints the list of the studies
   char* with_help[] = {words[0], help.data(), nullptr};
   return command_line.execute(2, with_help);
 }

@@ -5,7 +5,7 @@
 
 namespace vitrel {
 
-/// Receives a line for a person about every step of a piece of work; may be empty.
+/// Receives a line of text for the user about every step of the work; may be empty.
 using Log = std::function<void(const std::string& line)>;
 
 inline void log_line(const Log& log, const std::string& line) {

@@ -14,11 +14,11 @@ struct SystemParameters {
   double packing_fraction = 0.5;
   std::uint64_t seed = 1;
   ShapeDraw draw = ShapeDraw::quantiles;
-  std::vector<double> box_aspect = {
-      1};  ///< the other sides over L_x; one number is for all of them
+  /// The other sides of the box over L_x; a single number holds for all of them.
+  std::vector<double> box_aspect = {1};
 };
 
-/// The sides of the box over L_x.
+/// The sides of the box over L_x, the first of which is 1.
 template <int Dim>
 Vec<Dim> box_proportions(const SystemParameters& system) {
   Vec<Dim> proportions = Vec<Dim>::Constant(system.box_aspect[0]);

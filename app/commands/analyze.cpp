@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where results go must be free, or hold those of an earlier analysis.
+/// The output must not exist, or must hold the results of an earlier analysis.
 void require_place(const fs::path& output, const std::vector<fs::path>& inputs) {
   require_output_file(output, inputs);
   former_tables(output);

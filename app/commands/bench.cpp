@@ -17,7 +17,7 @@ void become_bench(const std::vector<std::string>& words) {
   arguments.push_back(nullptr);
   const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& program : {folder / name, folder / "../bench" / name})
-    static_cast<void>(execv(program.c_str(), arguments.data()));  // returns only if it failed
+    static_cast<void>(execv(program.c_str(), arguments.data()));  // returns only if it fails
   static_cast<void>(execvp(name.c_str(), arguments.data()));
   throw UserError(
       "cannot find vitrel-bench beside this program or on PATH; install its package, or build it "

@@ -10,25 +10,25 @@
 #include "workflow/pair/pair_parameters.h"
 
 /// @file
-/// The commands. Each returns the exit code, or throws one of the errors of core/error.h.
+/// The commands. Each function returns the exit code, or throws one of the errors of core/error.h.
 namespace vitrel {
 
 struct PairOptions {
   PrintOptions print;
   PairSource source;
-  std::vector<std::string> methods;  ///< names in vitrel-bench; empty: that of the engine
-  bool all_methods = false;          ///< all those of vitrel-bench
-  // What `pair path` alone reads:
-  std::optional<double> until;  ///< none: usual_end
+  std::vector<std::string> methods;  ///< names in vitrel-bench; the engine's own if empty
+  bool all_methods = false;          ///< uses all methods of vitrel-bench
+  // The following options are for `pair path` only.
+  std::optional<double> until;  ///< usual_end by default
   int points = 1000;
-  std::filesystem::path output;  ///< empty: none
+  std::filesystem::path output;  ///< nothing is written if empty
   std::string command_line;
 };
 
 struct ImpactOptions {
   PrintOptions print;
   ImpactSource source;
-  std::filesystem::path table, scaled_table, paths;  ///< to write; empty: none
+  std::filesystem::path table, scaled_table, paths;  ///< files to write; none if empty
   std::string command_line;
 };
 
@@ -47,14 +47,15 @@ int report_command(const ReportOptions& options);
 int run_command(const RunOptions& options);
 int sweep_command(const SweepOptions& options);
 
-/// Those whose template can be printed.
+/// The commands whose template can be printed.
 std::vector<std::string> commands_with_templates();
 
-/// Becomes `vitrel-bench` with these words: the program beside this one, that of the build tree, or the first on PATH.
-/// UserError if there is none.
+/// Replaces this process by `vitrel-bench` with these words: the program beside this one, that of the build tree, or
+/// the first on PATH. Throws UserError if there is none.
 [[noreturn]] void become_bench(const std::vector<std::string>& words);
 
-/// The same with the words after the first one; returns an exit code only if there is none.
+/// Replaces this process by `vitrel-bench` with the words after the first one. Returns an exit code only if there is
+/// no such program.
 int bench_command(char** words);
 
 /// Runs the command that the command line names and returns the exit code.

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `sections` are those that have an effect.
+/// `sections` are the sections whose keys have an effect.
 void require_key_of(std::span<const std::string_view> sections, const std::string& assignment) {
   const auto is_below = [&](std::string_view section) {
     return assignment.starts_with(fmt::format("{}.", section)) ||
@@ -53,13 +53,13 @@ std::string stopped_summary(const fs::path& output) {
 
 constexpr std::string_view error_suffix = "_error";
 
-/// Whether the value is the error of another one, and is printed with that.
+/// Whether the value is the error of another value and is printed with it.
 bool is_error(const Json& summary, const std::string& key) {
   return key.ends_with(error_suffix) &&
          summary.contains(key.substr(0, key.size() - error_suffix.size()));
 }
 
-/// Overlaps stand out on a terminal.
+/// Marks overlaps on a terminal.
 std::string emphasized(const std::string& key, const Json& value, const std::string& text) {
   return key == "overlaps" && value > 0 ? styled(text, Style::error, STDOUT_FILENO) : text;
 }
@@ -83,7 +83,7 @@ std::string value_text(const Json& summary, const std::string& key) {
   return has_error ? with_error(value.get<double>(), error->get<double>()) : text_of(value);
 }
 
-/// Adds the keys of earlier versions beside those that replaced them, at every depth.
+/// Adds the keys that earlier versions used, at every depth, beside those that replaced them.
 Json with_former_keys(Json json) {
   for (Json& part : json)
     if (part.is_structured()) part = with_former_keys(std::move(part));
@@ -153,7 +153,7 @@ void print_summary(const PrintOptions& options, const Json& summary) {
     print_text(json_text(with_former_keys(summary), 2) + '\n');
   } else if (!options.quiet) {
     for (const auto& [key, value] : summary.items()) {
-      if (value.is_object()) continue;  // for programs
+      if (value.is_object()) continue;  // objects are for programs only
       const std::string text = value_text(summary, key);
       if (!is_error(summary, key) && !text.empty())
         print_text(fmt::format("{:<26} {}\n", key, emphasized(key, value, text)));

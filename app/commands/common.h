@@ -9,7 +9,7 @@
 #include "core/io/json.h"
 
 /// @file
-/// What the commands share.
+/// Functions that several commands share.
 namespace vitrel {
 
 struct AnalysisChoice;
@@ -19,41 +19,43 @@ struct SweepProgress;
 class ProgressDisplay;
 
 ParameterSource parameter_source(const ParameterOptions& options, const StartOptions& start = {});
-/// UserError if --set names anything but a parameter of the analysis or the import.
+/// Throws UserError if --set names anything but a parameter of the analysis or the import.
 AnalysisChoice analysis_choice(const AnalysisOptions& options);
-/// UserError if --set names anything but a parameter of the import.
+/// Throws UserError if --set names anything but a parameter of the import.
 KnownSystem import_choice(const AnalysisOptions& options);
-/// Shows an analysis on the display.
+/// Callbacks that show the progress of an analysis on the display.
 AnalysisProgress shown_on(ProgressDisplay& display);
 
-/// A run's file or a sweep's folder; of a job's folder, the run in it. FileError if it is not there.
+/// Resolves the input: the file of a run, the folder of a sweep, or for the folder of a job the run in it. Throws
+/// FileError if it does not exist.
 std::filesystem::path run_or_sweep(const std::filesystem::path& input);
 
-// Outputs are checked before the work, which may take long.
+// Outputs are checked before the work begins, because the work may take long.
 
-/// FileError if the output's folder is missing; UserError if the output is a folder or a device, or
-/// one of the files that are read.
+/// Throws FileError if the folder of the output is missing, and UserError if the output is a folder, a device, or one
+/// of the files that are read.
 void require_output_file(const std::filesystem::path& output,
                          const std::vector<std::filesystem::path>& inputs);
-/// Checks a file or folder that must not exist yet: FileError if the folder around it is missing, UserError
-/// if it exists.
+/// Checks a file or folder that must not exist yet. Throws FileError if the folder around it is missing, and
+/// UserError if it exists.
 void require_new(const std::filesystem::path& output);
 
-/// To standard output: as JSON if asked for, else unless quiet as lines "key  value", or "key  value ±
-/// error" where `key_error` is in the summary, too.
+/// Prints the summary on standard output, as JSON if options.json is set. Otherwise, unless options.quiet is set, it
+/// prints lines "key  value", or "key  value ± error" if the summary also has `key_error`.
 void print_summary(const PrintOptions& options, const Json& summary);
 
-/// The summary of work that was stopped before there was anything else to say about it, if JSON is asked for. It is printed
-/// now, or by whatever ends the program at once (set_summary_of_stop).
+/// Both print, if options.json is set, the summary of work that was stopped before there was anything else to say
+/// about it. The first prints it now. The second leaves it to the code that ends the program at once
+/// (set_summary_of_stop).
 void print_stopped(const PrintOptions& options, const std::filesystem::path& output);
 void print_stopped_if_ended(const PrintOptions& options, const std::filesystem::path& output);
 
-/// One line on standard error, unless quiet.
+/// Prints one line on standard error, unless options.quiet is set.
 void remark(const PrintOptions& options, const std::string& line);
-/// How the file of another program was read, a line for each heading; nothing if vitrel wrote it.
+/// Prints how the file of another program was read, in a line for each heading; nothing if vitrel wrote the file.
 void remark_import(const PrintOptions& options, const std::filesystem::path& file,
                    const ImportReport& report);
-/// Names the jobs of a sweep that are left out, if any.
+/// Names the jobs of a sweep that are left out, if there are any.
 void remark_left_out(const PrintOptions& options, const std::filesystem::path& folder,
                      const SweepProgress& sweep);
 

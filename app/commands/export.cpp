@@ -14,10 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The one asked for, or else `default_output`, which must not exist.
+/// The output that the user names, or else `default_output`. It must not exist yet.
 fs::path new_output(const ExportOptions& options, const fs::path& default_output) {
   fs::path output = options.output.empty() ? default_output : options.output;
-  if (!output.has_filename()) output = output.parent_path();  // a folder given as "folder/"
+  // The user may write a folder as "folder/".
+  if (!output.has_filename()) output = output.parent_path();
   require_new(output);
   return output;
 }

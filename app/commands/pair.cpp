@@ -100,7 +100,7 @@ Json path_summary(const Pair<Dim>& pair, double end, const Results& path, const 
   return summary;
 }
 
-/// The same pair, by methods of vitrel-bench.
+/// Replaces this process by vitrel-bench, which computes the pair by its methods.
 [[noreturn]] void compare_methods(const PairOptions& options, const PairParameters& pair) {
   std::vector<std::string> words = {"pair", pair_text(pair)};
   for (const std::string& method : options.methods) words.insert(words.end(), {"--method", method});
@@ -120,7 +120,7 @@ Restitution difference(const Restitution& x, const Restitution& y) {
 
 struct Coefficients {
   Restitution integrated;
-  std::optional<Restitution> tabulated;  ///< none where the table has no value
+  std::optional<Restitution> tabulated;  ///< none if the table has no value
 };
 
 Json impact_summary(const Impact& impact, const Coefficients& found) {
@@ -171,7 +171,7 @@ void print_impact(const Impact& impact, const Coefficients& found) {
   print_coefficient("ε_ṙ (rate)", &Restitution::rate, found);
 }
 
-/// The ending decides what is written. Nothing is done without a name.
+/// Checks the output of a figure, whose ending determines the format. An empty name means no output.
 void require_figure_file(const std::string& option, const fs::path& output, const fs::path& input) {
   if (output.empty()) return;
   const fs::path ending = output.extension();

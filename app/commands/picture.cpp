@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// None if nothing is said of it.
+/// Returns no value if the options do not mention the view.
 std::optional<View> view_of(const PictureOptions& options) {
   if (!options.azimuth && !options.elevation && !options.whole) return std::nullopt;
   const View usual;

@@ -23,7 +23,7 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// A number, or null where there is none.
+/// The number, or null if it is not positive.
 Json if_positive(double value) {
   return value > 0 ? Json(value) : nullptr;
 }
@@ -52,7 +52,7 @@ Json stage_summaries(const Parameters& parameters, const std::vector<StageRecord
   return stages;
 }
 
-/// Without the quality report.
+/// The wall time of the stages, without the quality report.
 template <int Dim>
 double seconds_of_stages(const Preparation<Dim>& preparation) {
   double seconds = 0;
@@ -60,7 +60,7 @@ double seconds_of_stages(const Preparation<Dim>& preparation) {
   return seconds;
 }
 
-/// What was done; ratios of no moves at all are NaN.
+/// Describes the work that was done. Ratios are NaN if there were no moves.
 Json work_summary(const Preparation<2>& preparation, const std::filesystem::path& output) {
   const TrialCounts counts = preparation.trials();
   return {
@@ -77,7 +77,7 @@ Json work_summary(const Preparation<2>& preparation, const std::filesystem::path
        static_cast<double>(counts.tried()) / seconds_of_stages(preparation)}};
 }
 
-/// What was done and what came out, as JSON.
+/// Describes the work and its results as JSON.
 Json summary(const Preparation<2>& preparation, const Parameters& parameters,
              const Quality& quality, const std::filesystem::path& output) {
   Json result = work_summary(preparation, output);
@@ -100,7 +100,8 @@ Json summary(const Preparation<3>& preparation, const Parameters& parameters,
   return result;
 }
 
-/// Three columns. A remark is wrapped, and begins below a value that is too long for its column.
+/// Prints a row in three columns. A remark is wrapped, and begins on a new line if the value is too long for its
+/// column.
 std::string row_text(const QualityRow& row) {
   constexpr std::size_t values = 27, remarks = 51;
   std::string text = fmt::format("{:<{}}{}", row.name, values, row.value);
@@ -115,7 +116,7 @@ void print_rows(const std::vector<QualityRow>& rows) {
   for (const QualityRow& row : rows) print_text(row_text(row) + '\n');
 }
 
-/// The same as text; counts that are 0 are left out.
+/// Prints the work and its results as text, without counts that are 0.
 void print_outcome(const PrepareOptions& options, const Preparation<2>& preparation,
                    const Quality& quality) {
   const Json all = work_summary(preparation, options.output);
@@ -155,7 +156,7 @@ int prepare_state(const PrepareOptions& options, const PrepareRequest& request, 
                                              parameters.system.seed);
   provenance.wall_seconds = preparation.wall_seconds;
   provenance.model = preparation_model(parameters, preparation.configuration);
-  // The state comes last: where there is one, all is there.
+  // The state is written last, so that a state that exists is complete with its report.
   write_quality(quality_file(options.output), *quality);
   try {
     write_state(options.output, preparation.configuration, provenance);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside a state or a run, or in the folder of a sweep, unless the command line says where.
+/// The output is beside a state or a run, or in the folder of a sweep, unless the user names it.
 fs::path output_of(const ReportOptions& options, const fs::path& input) {
   if (!options.output.empty()) return options.output;
   return fs::is_directory(input) ? input / "report.html"

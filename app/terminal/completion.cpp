@@ -24,7 +24,8 @@ std::string with_backslashes(const std::string& text, std::string_view before) {
 
 // ---- bash -------------------------------------------------------------------------------------------
 
-/// What `compgen` takes to list what may follow: words, or an option for files or folders.
+/// The argument with which `compgen` lists the possible values of an option: words, or an option for files or
+/// folders.
 std::string offer(const OptionDescription& option) {
   if (!option.choices.empty()) return fmt::format("{}", fmt::join(option.choices, " "));
   return option.value == file_value ? "-f" : option.value == folder_value ? "-d" : "";
@@ -37,7 +38,7 @@ std::string all_names(const Descriptions& options) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
-/// What may follow the options of a command that take a value, a line for all with the same.
+/// Lines that offer the values of the options of a command, one line for all options with the same values.
 std::string value_cases(const std::string& path, const CommandDescription& command) {
   std::map<std::string, std::vector<std::string>> patterns;
   for (const OptionDescription& option : command.options)
@@ -50,7 +51,7 @@ std::string value_cases(const std::string& path, const CommandDescription& comma
   return cases;
 }
 
-/// The commands below, or else what the first argument may be.
+/// The commands below this command or, if there are none, the possible values of its first argument.
 std::string offer_of_words(const CommandDescription& command) {
   std::vector<std::string> names;
   for (const CommandDescription& below : command.commands) names.push_back(below.name);
@@ -63,7 +64,7 @@ std::string word_cases(const std::string& path, const CommandDescription& comman
                      shell_word(all_names(command.options)), shell_word(offer_of_words(command)));
 }
 
-/// What a command and all those below it take, each by its path, such as vitrel/pair/gap.
+/// The cases for a command and all commands below it, each with its path, such as vitrel/pair/gap.
 struct BashCases {
   std::vector<std::string> parents;
   std::string values, words;
@@ -83,7 +84,7 @@ std::string action(const OptionDescription& option) {
   return option.value == file_value ? "_files" : option.value == folder_value ? "_files -/" : " ";
 }
 
-/// The specification of an option for `_arguments`, one for each of its names.
+/// The specifications of an option for `_arguments`, one for each of its names.
 std::string option_specifications(const OptionDescription& option) {
   const std::string others =
       option.repeated ? "*" : fmt::format("({})", fmt::join(option.names, " "));
@@ -106,7 +107,7 @@ std::string specifications(const CommandDescription& command) {
   return lines;
 }
 
-/// A function that completes a command which has others below it, after those of these others.
+/// The function that completes a command with commands below it, after the functions of those commands.
 std::string zsh_function(const std::string& name, const CommandDescription& command) {
   std::string functions, commands, cases;
   for (const CommandDescription& below : command.commands) {

@@ -16,7 +16,7 @@ inline std::string heading(const std::string& text) {
   return styled(text, Style::heading, STDOUT_FILENO);
 }
 
-/// Help in lines that fit a terminal. The layout is the same with every version of CLI11.
+/// Help in lines that fit a terminal. The layout is the same for every version of CLI11.
 class Help : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name,

@@ -8,14 +8,15 @@
 namespace vitrel {
 namespace {
 
-/// As text of roff: no backslash is an escape sequence, and hyphens are those that one types.
+/// Escapes text for roff, so that a backslash begins no escape sequence and hyphens are the characters that one
+/// types.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
   return result;
 }
 
-/// A line of text, whose first character is no request.
+/// A line of text whose first character is not taken for a request.
 std::string line(const std::string& text) {
   const bool is_request = text.starts_with('.') || text.starts_with('\'');
   return (is_request ? "\\&" : "") + escaped(text) + '\n';
@@ -43,7 +44,7 @@ std::string entry(const OptionDescription& option, bool is_argument) {
   return ".TP\n" + tag + '\n' + line(text);
 }
 
-/// The usage of a command with this full name.
+/// The usage of the command with this full name.
 std::string usage(const std::string& name, const CommandDescription& command) {
   std::string text = bold(name);
   if (!command.commands.empty()) text += " " + italic("command");
@@ -58,13 +59,13 @@ std::string usage(const std::string& name, const CommandDescription& command) {
 std::string section(const std::string& name, const CommandDescription& command) {
   std::string text = ".SS " + usage(name, command) + line(command.sentence);
   for (const OptionDescription& argument : command.arguments) text += entry(argument, true);
-  // Help is an option of the program, too, and stands there.
+  // The option for help is described once, for the whole program.
   for (const OptionDescription& option : command.options)
     if (option.names.back() != "--help") text += entry(option, false);
   return command.footer.empty() ? text : text + ".PP\n" + line(command.footer);
 }
 
-/// The sections of all commands below the one of this full name.
+/// The sections of all commands below the one with this full name.
 std::string sections(const std::string& name, const CommandDescription& parent) {
   std::string text;
   for (const CommandDescription& command : parent.commands) {
@@ -74,7 +75,7 @@ std::string sections(const std::string& name, const CommandDescription& parent) 
   return text;
 }
 
-/// The sentence without capital letter and full stop, as indexes of manual pages have it.
+/// The sentence without its capital letter and full stop, as the indexes of manual pages require.
 std::string clause(std::string sentence) {
   sentence.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(sentence.front())));
   if (sentence.ends_with('.')) sentence.pop_back();

@@ -22,25 +22,25 @@
 #include "core/io/suggestion.h"
 
 /// @file
-/// What the command lines of the programs share. CLI11 takes long to compile: one source file of each
-/// program includes this.
+/// The common part of the command lines of the programs. CLI11 takes long to compile, so only one source file of each
+/// program includes this header.
 namespace vitrel {
 
-/// The whole command line, for the provenance; of the program its name without the folder.
+/// The whole command line for the provenance. The name of the program has no folder.
 inline std::string joined(int count, char** words) {
   std::string line = std::filesystem::path(words[0]).filename().string();
   for (int k = 1; k < count; ++k) line += " " + std::string(words[k]);
   return line;
 }
 
-/// The command line of a program with commands, which derived classes add.
+/// The command line of a program with commands. Derived classes add the commands.
 class ProgramCommandLine {
  public:
-  /// Parses the words and runs the command chosen; returns the exit code.
+  /// Parses the words, runs the chosen command and returns the exit code.
   int execute(int count, char** words) {
     try {
       app_.parse(count, words);
-    } catch (const CLI::Success& asked) {  // for help or the version
+    } catch (const CLI::Success& asked) {  // help or the version was requested
       std::ostringstream text;
       const int code = app_.exit(asked, text, text);
       return exit_code_of(app_.get_name(), [&] { return print(text.str(), code); });
@@ -59,7 +59,7 @@ class ProgramCommandLine {
     app_.set_version_flag("--version", program_version());
   }
 
-  /// A command of the program, or of another command, that does this work, which returns the exit code.
+  /// Adds a command to the program or to another command. `work` runs it and returns the exit code.
   CLI::App& add_command(CLI::App& parent, const std::string& name, const std::string& sentence,
                         const std::function<int()>& work) {
     CLI::App& command = *parent.add_subcommand(name, sentence);
@@ -74,7 +74,7 @@ class ProgramCommandLine {
                 [this] { return print(manual_page(description())); });
   }
 
-  /// The commands of every program, when it has all others.
+  /// Adds the commands that every program has. Call it after all others are added.
   void add_help_and_version() {
     CLI::App& help =
         add_command(app_, "help", "Print the options of a command, or the list of commands.",
@@ -85,7 +85,7 @@ class ProgramCommandLine {
     choices_[topic->type_name("COMMAND")] = command_names(app_);
   }
 
-  /// An option, or an argument, with one of a few words for its value.
+  /// Adds an option or an argument whose value is one of a few words.
   CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
                           const std::vector<std::string>& choices, const std::string& value_name,
                           const std::string& sentence) {
@@ -96,7 +96,7 @@ class ProgramCommandLine {
 
   ProgramDescription description() const { return {described(app_), program_version()}; }
 
-  /// To standard output; returns the exit code.
+  /// Prints on standard output and returns the exit code.
   static int print(const std::string& text, int code = success) {
     print_text(text);
     return code;
@@ -105,13 +105,13 @@ class ProgramCommandLine {
   CLI::App app_;
 
  private:
-  /// "vitrel pair gap".
+  /// The full name of a command, such as "vitrel pair gap".
   static std::string full_name(const CLI::App& command) {
     const CLI::App* parent = command.get_parent();
     return (parent ? full_name(*parent) + " " : "") + command.get_name();
   }
 
-  /// The command that the words name, or the first one on the way there with a word that nothing takes.
+  /// The command that the words name, or the first one on the way to it that has a word which it does not accept.
   const CLI::App& named_command() const {
     const CLI::App* command = &app_;
     while (command->remaining().empty() && !command->get_subcommands().empty())
@@ -131,7 +131,8 @@ class ProgramCommandLine {
         app_.get_formatter()->make_help(command, full_name(*command), CLI::AppFormatMode::Normal));
   }
 
-  /// In one message. A word that nothing takes comes first, as it may be why something is missing.
+  /// Reports the error in one message. A word that is not accepted comes first, because it may be why something is
+  /// missing.
   int complain_about(const CLI::ParseError& error) const {
     const CLI::App& command = named_command();
     const std::vector<std::string> unknown = command.remaining();
@@ -151,7 +152,7 @@ class ProgramCommandLine {
     return std::regex_replace(error.what(), no_value, "$1 needs a value: $1 $2");
   }
 
-  /// Why the word may not stand there.
+  /// Says why the word is not accepted.
   static std::string refusal(const CLI::App& command, const std::string& word) {
     if (word.starts_with('-')) {
       const std::string name = word.substr(0, word.find('='));
@@ -210,7 +211,7 @@ class ProgramCommandLine {
   }
 
   std::map<const CLI::App*, std::function<int()>> work_;
-  std::vector<std::string> topic_;  ///< of `help`
+  std::vector<std::string> topic_;  ///< argument of `help`
   std::map<const CLI::Option*, std::vector<std::string>> choices_;
 };
 

@@ -5,15 +5,15 @@
 
 namespace vitrel {
 
-/// An option of a command, or an argument, which has no dashes.
+/// An option of a command, or an argument, whose name has no dashes.
 struct OptionDescription {
-  std::vector<std::string> names;     ///< "-o", "--output"; of an argument one
-  std::string value;                  ///< what follows it, "FILE"; empty: nothing
-  std::vector<std::string> choices;   ///< what the value must be one of; empty: anything
-  std::vector<std::string> excludes;  ///< names of others
+  std::vector<std::string> names;     ///< "-o", "--output"; an argument has one name
+  std::string value;                  ///< name of the value, such as "FILE"; empty if there is none
+  std::vector<std::string> choices;   ///< all possible values; any value is possible if empty
+  std::vector<std::string> excludes;  ///< names of options that exclude this one
   std::string sentence;
   bool required = false;
-  bool repeated = false;  ///< may be given several times
+  bool repeated = false;  ///< whether it may be given several times
 };
 
 /// A command, which has either arguments or commands of its own.
@@ -25,8 +25,8 @@ struct CommandDescription {
   std::vector<CommandDescription> commands;
 };
 
-/// The command line of a program, as its help describes it, for texts about it. A value called file_value or
-/// folder_value is the path of one.
+/// The command line of a program as its help describes it, as a source of other texts. A value named file_value or
+/// folder_value is the path of a file or a folder.
 struct ProgramDescription : CommandDescription {
   std::string version;
 };
@@ -34,14 +34,14 @@ struct ProgramDescription : CommandDescription {
 inline constexpr const char* file_value = "FILE";
 inline constexpr const char* folder_value = "FOLDER";
 
-/// A script by which bash 4 or later, with or without the package bash-completion, completes commands, options,
-/// choices, files and folders. It holds all words itself and does not run the program.
+/// A script that completes commands, options, choices, files and folders in bash 4 or later, with or without the
+/// package bash-completion. It contains all words and does not run the program.
 std::string bash_completion(const ProgramDescription& program);
 
-/// The same for zsh: a file `_<program>` in a folder of `fpath`, or a text to source after `compinit`.
+/// A script that does this in zsh. It is a file `_<program>` in a folder of `fpath`, or is sourced after `compinit`.
 std::string zsh_completion(const ProgramDescription& program);
 
-/// The manual page in section 1, as roff with the macros `man`.
+/// The manual page in section 1, written in roff with the macros `man`.
 std::string manual_page(const ProgramDescription& program);
 
 }  // namespace vitrel

@@ -46,7 +46,7 @@ void ProgressDisplay::show(const Progress& progress) {
   if (mode_ == Mode::silent) return;
   const Clock::time_point now = Clock::now();
   if (!pace_) {
-    // Rates count from here: a continued run has done its first part long ago.
+    // Rates count from this moment, because a continued run has done its first part long ago.
     pace_.emplace(Pace::Mark{0, progress});
     started_ = now;
     shown_ = 0;
@@ -60,7 +60,7 @@ void ProgressDisplay::show(const Progress& progress) {
       fmt::format("{} {:.1f} %, {} {:.5g} ({:.3g}/s){}", label_, 100 * progress.fraction,
                   progress.quantity, progress.value, pace_->rate(), left_text(pace_->left()));
   if (mode_ == Mode::terminal) {
-    // Return to the start of the line, write, erase what is left of the line before.
+    // This returns to the start of the line, writes, and erases the rest of the previous line.
     fmt::print(stderr, "\r{}\033[K", line);
     static_cast<void>(std::fflush(stderr));
     line_is_open_ = true;

@@ -8,11 +8,11 @@
 
 namespace vitrel {
 
-/// How fast work advances, over the last quarter to half of its time: of work that slows down, more and more is left.
+/// The speed of work over the last quarter to half of its time. The time left thus grows if the work slows down.
 class Pace {
  public:
   struct Mark {
-    double seconds = 0;  ///< since some start
+    double seconds = 0;  ///< since a fixed start
     Progress progress = {};
   };
 
@@ -20,34 +20,34 @@ class Pace {
 
   void note(const Mark& now);
   double elapsed() const { return now_.seconds - from_.seconds; }
-  /// By how much the value rises per second.
+  /// The increase of the value per second.
   double rate() const { return (now_.progress.value - from_.progress.value) / elapsed(); }
-  /// Seconds until all is done; nothing if the work does not advance.
+  /// The seconds until all is done; no value if the work does not advance.
   std::optional<double> left() const;
 
  private:
-  Mark from_;  // the rate is that since then
-  Mark next_;  // takes its place
+  Mark from_;  // start of the interval over which the rate is measured
+  Mark next_;  // the next start, which replaces from_
   Mark now_;
 };
 
-/// Shows how far a piece of work has come, with rate and time left, on standard error: one line
-/// that is rewritten on a terminal, a plain line every ten seconds elsewhere.
+/// Shows the progress of work with its rate and the time left on standard error: a single line that is rewritten on a
+/// terminal, or a line every ten seconds elsewhere.
 class ProgressDisplay {
  public:
   enum class Mode { silent, lines, terminal };
-  /// `lines` or `terminal` by what standard error is.
+  /// The mode for standard error: `terminal`, or `lines` if it is no terminal.
   static Mode mode(bool quiet);
 
   explicit ProgressDisplay(Mode mode) : mode_(mode) {}
   ~ProgressDisplay() { clear(); }
 
-  /// What the following progress is about ("swell").
+  /// Sets the label of the progress that follows, such as "swell".
   void begin(const std::string& label);
   void show(const Progress& progress);
-  /// A line of its own, unless silent.
+  /// Prints a line of its own, unless the mode is silent.
   void say(const std::string& line);
-  /// Leaves an empty line on a terminal, for what is printed next.
+  /// Clears the line of progress on a terminal, so that other text can follow.
   void clear();
 
  private:
@@ -57,7 +57,7 @@ class ProgressDisplay {
   std::string label_;
   std::optional<Pace> pace_;
   Clock::time_point started_{};
-  double shown_ = 0;  // seconds after the start
+  double shown_ = 0;  // time of the last line, in seconds after the start
   bool line_is_open_ = false;
 };
 

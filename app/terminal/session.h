@@ -11,21 +11,21 @@
 
 namespace vitrel {
 
-/// What a command at work has: a run control that stops with a stop signal or the wall time, and a
-/// display.
+/// The surroundings of a command at work: a run control that reacts to stop signals and to the limit of wall time,
+/// and a display.
 class Session {
  public:
-  /// `wall_time` in seconds; 0: no limit.
+  /// `wall_time` is in seconds; 0 means no limit.
   explicit Session(bool quiet, double wall_time = 0, StopDeadline deadline = StopDeadline::soon);
 
   const RunControl& control() const { return control_; }
-  /// Begins a step: prints a line, and the label of the progress that follows.
+  /// Begins a step: prints a line and makes it the label of the progress that follows.
   const std::function<void(const std::string&)>& say() const { return say_; }
-  /// The label of the progress that follows.
+  /// Sets the label of the progress that follows.
   void begin(const std::string& label) { display_.begin(label); }
-  /// Prints a line; the progress goes on.
+  /// Prints a line while the progress continues.
   void note(const std::string& line) { display_.say(line); }
-  /// Takes the progress off the terminal, before a summary is printed.
+  /// Removes the progress from the terminal, so that a summary can be printed.
   void clear() { display_.clear(); }
   double seconds() const;
 
@@ -36,7 +36,7 @@ class Session {
   std::function<void(const std::string&)> say_;
 };
 
-/// To standard output, at once; throws FileError if it cannot be written. Nothing else writes there.
+/// Prints on standard output at once. Throws FileError if that fails. Nothing else writes there.
 void print_text(std::string_view text);
 
 }  // namespace vitrel

@@ -24,14 +24,14 @@ std::string summary_text;
 const char* volatile summary_of_stop = "";
 volatile std::sig_atomic_t has_deadline = 0, ends_at_once = 0;
 
-// In handlers only calls that are safe there.
+// Handlers may only make async-signal-safe calls.
 
 void print(const char* text, int descriptor = STDERR_FILENO) {
   [[maybe_unused]] const auto written = write(descriptor, text, std::strlen(text));
 }
 
 [[noreturn]] void end(const char* text) {
-  if (isatty(STDERR_FILENO)) print("\r\033[K");  // instead of the line of progress
+  if (isatty(STDERR_FILENO)) print("\r\033[K");  // erases the line of progress
   print(text);
   print(summary_of_stop, STDOUT_FILENO);
   remove_unfinished_files();
@@ -45,7 +45,7 @@ extern "C" void ask_to_stop(int number) {
   if (number == SIGINT) static_cast<void>(std::signal(SIGINT, SIG_DFL));
 }
 
-// The first alarm is the wall time, the second the deadline.
+// The first alarm is the limit of wall time, the second the deadline after a request.
 extern "C" void note_alarm(int number) {
   if (!stop_asked) return ask_to_stop(number);
   end("stopped at once, without the work since the last checkpoint; the same command continues\n");

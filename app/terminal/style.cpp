@@ -21,7 +21,7 @@ std::string visible(std::string_view text) {
   for (std::size_t k = 0; k < text.size(); ++k) {
     const auto byte = static_cast<unsigned char>(text[k]);
     const auto next = k + 1 < text.size() ? static_cast<unsigned char>(text[k + 1]) : 0;
-    const bool is_c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0;  // in UTF-8
+    const bool is_c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0;  // C1 controls in UTF-8
     if (is_c1) ++k;
     if (is_c1 || (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F)
       shown += fmt::format("\\x{:02x}", is_c1 ? next : byte);

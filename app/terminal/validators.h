@@ -15,7 +15,7 @@
 #include "core/io/suggestion.h"
 
 /// @file
-/// What the values of options must be; each says so in the message of the option that has another one.
+/// Validators for the values of options. Each says in its message what the value must be.
 namespace vitrel {
 
 inline CLI::Validator number_that(const std::function<bool(double)>& fits,
@@ -43,7 +43,7 @@ inline const CLI::Validator not_empty = {[](const std::string& text) {
                                          },
                                          ""};
 
-/// The number of a seed: TOML has no greater numbers.
+/// A seed. TOML cannot represent greater numbers.
 inline const CLI::Validator seed_number = {
     [](const std::string& text) {
       std::int64_t number = 0;

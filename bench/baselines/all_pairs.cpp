@@ -31,7 +31,7 @@ class AllPairs final : public Engine2 {
 
   struct Particle {
     Ellipse shape;
-    Pose2 pose;  // at `time`, not wrapped since the start of the block
+    Pose2 pose;  // at `time`; not wrapped since the start of the block
     Motion2 motion;
     double time = 0;
     Inertia<2> inertia;
@@ -42,7 +42,7 @@ class AllPairs final : public Engine2 {
     std::size_t i = 0, j = 0;
     double time = never;
     Kind kind = Kind::look_again;
-    Shift<2> shift = Shift<2>::Zero();  // of j
+    Shift<2> shift = Shift<2>::Zero();  // of particle j
     Vec2 normal = Vec2::Zero();         // of a contact, from i to j
     Vec2 point = Vec2::Zero();
   };
@@ -73,13 +73,13 @@ class AllPairs final : public Engine2 {
   PeriodicBox<2> box_;
   std::vector<Particle> particles_;
   std::vector<double> met_;   // time of the last impact or correction of a pair i < j
-  std::vector<double> time_;  // the table, of pairs i < j: time of the next event …
-  std::vector<Event> event_;  // … and what it is
+  std::vector<double> time_;  // the table for pairs i < j: the time of the next event …
+  std::vector<Event> event_;  // … and the event
   double contact_gap_ = 0;
   double longest_screen_ = 0;
-  double horizon_ = never;  // since the start of the block
+  double horizon_ = never;  // time since the start of the block
   double base_ = 0;         // simulated time at the start of the block
-  double now_ = 0;          // since then
+  double now_ = 0;          // time since the start of the block
   std::uint64_t events_left_ = 0;
   bool asked_ = false;
 };
@@ -125,8 +125,8 @@ void AllPairs::check_box() const {
                     ", must be longer than two particles, " + std::to_string(4 * largest));
 }
 
-// In this time a typical particle crosses the box, or its tip goes as far: there must be an end even
-// for particles that only spin.
+// In this time a typical particle crosses the box, or its tip moves as far. The limit is needed because particles may
+// only spin.
 void AllPairs::set_longest_screen() {
   double square = 0;
   for (const Particle& particle : particles_) {
@@ -137,8 +137,8 @@ void AllPairs::set_longest_screen() {
   longest_screen_ = box_.lengths().maxCoeff() / (speed > 0 ? speed : 1);
 }
 
-// For how long the nearest image now, at the separation d, is all that need be asked about. In a direction k in which
-// |d_k| < L_k − R the other images are farther than R away.
+// The time for which only the image that is nearest now, at the separation d, needs to be considered. In a direction
+// k in which |d_k| < L_k − R, the other images are farther away than R.
 double AllPairs::image_lasts(std::size_t i, std::size_t j, const Vec2& d) const {
   const double reach = particles_[i].shape.a + particles_[j].shape.a;
   const Vec2 v = particles_[j].motion.velocity - particles_[i].motion.velocity;
@@ -151,7 +151,7 @@ double AllPairs::image_lasts(std::size_t i, std::size_t j, const Vec2& d) const 
 }
 
 double AllPairs::time_to_part(std::size_t i, std::size_t j) const {
-  constexpr double part = 0.05;  // of their width
+  constexpr double part = 0.05;  // fraction of their width
   const Particle& one = particles_[i];
   const Particle& two = particles_[j];
   const double speed = (two.motion.velocity - one.motion.velocity).norm() +
@@ -172,7 +172,7 @@ Prediction2 AllPairs::predict(std::size_t i, std::size_t j, const Pose2& pose2,
                           {of_constant_size(mine), of_constant_size(other), horizon});
 }
 
-// What happens next to a pair, as far as it can be seen and not after now + horizon.
+// Predicts the next event of a pair, as far as it can be known, but no later than now + horizon.
 AllPairs::Event AllPairs::ask(std::size_t i, std::size_t j, double horizon,
                               RunCounters& counters) const {
   const Vec2 here = pose_now(particles_[i]).position;
@@ -209,7 +209,7 @@ AllPairs::Event AllPairs::overlap_event(std::size_t i, std::size_t j, const Vec2
   const Vec2 v = particles_[j].motion.velocity - particles_[i].motion.velocity;
   const double interval = time_to_part(i, j);
   const double since = now_ - met_[index(i, j)];
-  // Rounding must not count: the remaining time could be too short to advance the clock.
+  // The factor allows for rounding: the remaining time could be too short to advance the clock.
   const bool is_early = since < 0.999 * interval;
   const bool recede = d.dot(v) > 0;
   if (!recede && !is_early) event.kind = Kind::correction;
@@ -290,7 +290,7 @@ void AllPairs::process(const Event& event, RunCounters& counters) {
         ask_for_table(changed, k, counters);
 }
 
-// As in the thesis, at the point and along the normal that the method has found.
+// Computes the impact as in the thesis, at the point and along the normal that the method has found.
 void AllPairs::impact(const Event& event, const Vec2& d, RunCounters& counters) {
   Particle& one = particles_[event.i];
   Particle& two = particles_[event.j];

@@ -12,14 +12,16 @@
 
 namespace vitrel::bench {
 
-/// Soft spheres or disks as exactly as Newton's equations can be integrated, as the reference for the other ways:
-/// it uses neither events nor the restitution matrix, and is also correct for contacts of three particles.
+/// Soft spheres or disks whose equations of motion are integrated as accurately as possible, as the reference for the
+/// other methods. It uses neither events nor the restitution matrix, and is also correct for contacts of three
+/// particles.
 ///
-/// Steps, each as long as nobody moves by more than half of a margin:
-///   1. Clusters of particles closer than contact and the margin: none can meet another one in this time.
-///   2. A particle on its own moves freely; the others are integrated by Dormand and Prince's order 5 with adaptive
-///      steps, which become short where a force sets in or ends. `longest_step`, well below the duration of
-///      a contact, lets none be missed.
+/// The run consists of steps, each as long as no particle moves by more than half of a margin:
+///   1. Particles that are closer than contact and the margin form clusters. No cluster can meet another one in this
+///      time.
+///   2. A single particle moves freely. Clusters are integrated by the method of Dormand and Prince of order 5 with
+///      adaptive steps, which become short where a force begins or ends. `longest_step` must be well below the
+///      duration of a contact, so that no contact is missed.
 template <int Dim, ContactForce Force>
 class ClusterwiseRun {
  public:
@@ -37,7 +39,7 @@ class ClusterwiseRun {
       find_clusters();
       const std::vector<Vec<Dim>> position = c_.position, velocity = c_.velocity;
       double step = std::min(end - c_.time, 0.4 * margin_ / fastest());
-      while (!advance_clusters(step)) {  // somebody was slow at the beginning, in contact
+      while (!advance_clusters(step)) {  // a particle that was slow at first moved too far
         c_.position = position;
         c_.velocity = velocity;
         step /= 2;
@@ -46,13 +48,13 @@ class ClusterwiseRun {
     }
   }
 
-  /// Positions as they come, not wrapped.
+  /// Positions are not wrapped.
   const Configuration<Dim>& state() const { return c_; }
 
  private:
   struct Cluster {
     std::vector<std::size_t> members;
-    std::vector<SoftPair<Dim>> pairs;  // by their places within the cluster
+    std::vector<SoftPair<Dim>> pairs;  // numbered within the cluster
   };
   using State = std::vector<double>;  // positions, then velocities
 

@@ -9,12 +9,12 @@
 
 namespace vitrel::bench {
 
-/// Soft spheres or disks the plain way, as the baseline of the event-driven run: Newton's equations with the force
-/// itself in steps of time, by the velocity Verlet method,
+/// Soft spheres or disks by conventional dynamics, as the baseline of the event-driven run: Newton's equations with
+/// the force itself, in time steps of the velocity Verlet method,
 ///     v* = v + a h/2,  r' = r + v* h,  a' = F(r', v* + a h/2)/m,  v' = v* + a' h/2.
-/// A pair repels as long as it is closer than contact and its force is not negative. Errors ∝ h², near
-/// the ends of contacts with damping ∝ h. Neighbours are found by cells, and anew when somebody has moved by half
-/// of the skin, which is as thick as lets one more neighbour of a particle in: so wide in a thin gas that the
+/// A pair repels as long as it is closer than contact and its force is not negative. Errors are ∝ h², and ∝ h near
+/// the ends of contacts with damping. Cells find the neighbours, again whenever a particle has moved by half of the
+/// skin. The skin is as thick as lets one additional neighbour of a particle in; in a thin gas it is so wide that the
 /// search costs nothing.
 template <int Dim, ContactForce Force>
 class ForceBasedRun {
@@ -29,7 +29,7 @@ class ForceBasedRun {
     accelerate();
   }
 
-  /// On by so much time in that many steps.
+  /// Advances by `duration` in this number of steps.
   void advance(double duration, std::uint64_t steps) {
     const double h = duration / static_cast<double>(steps);
     for (std::uint64_t step = 0; step < steps; ++step) {
@@ -50,7 +50,7 @@ class ForceBasedRun {
     c_.time += duration;
   }
 
-  /// Positions as they come, not wrapped.
+  /// Positions are not wrapped.
   const Configuration<Dim>& state() const { return c_; }
 
  private:

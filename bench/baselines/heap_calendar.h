@@ -8,9 +8,8 @@
 
 namespace vitrel::bench {
 
-/// What Calendar might be as well: an indexed 4-ary heap of (time, particle). The four children of a
-/// place fill one line of the cache. Cost: O(log N) per change, O(1) for the earliest. Memory: 20
-/// bytes per particle.
+/// An alternative to Calendar: an indexed 4-ary heap of (time, particle). The four children of a node fill one cache
+/// line. A change costs O(log N), the earliest entry O(1), and a particle 20 bytes of memory.
 class HeapCalendar {
  public:
   explicit HeapCalendar(std::size_t particles)
@@ -32,7 +31,7 @@ class HeapCalendar {
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
   static constexpr std::size_t arity = 4;
-  static constexpr std::size_t root = arity - 1;  // so that the first child begins a line
+  static constexpr std::size_t root = arity - 1;  // makes the first child begin a cache line
 
   struct Entry {
     double time = never;
@@ -56,7 +55,7 @@ class HeapCalendar {
     place_[entry.particle] = static_cast<std::uint32_t>(place);
   }
 
-  // Where an entry comes to rest; those it passes have moved.
+  // Finds the place where the entry comes to rest, and moves the entries that it passes.
   std::size_t risen(std::size_t place, const Entry& entry) {
     while (place > root && before(entry, at(parent_of(place)))) {
       put(place, at(parent_of(place)));
@@ -77,7 +76,7 @@ class HeapCalendar {
     return place;
   }
 
-  std::vector<Family> families_;  // unused entries are later than any particle's
+  std::vector<Family> families_;  // unused entries have later times than any particle
   std::vector<std::uint32_t> place_;
   std::size_t end_;
 };

@@ -11,7 +11,7 @@
 namespace vitrel::bench {
 namespace {
 
-/// An ellipse whose collisions are predicted by whatever method the engine at work was given.
+/// An ellipse whose collisions are predicted by the method of the engine that runs in this thread.
 struct PredictedEllipse : Ellipse {
   static thread_local const Method* method;
 };
@@ -25,7 +25,7 @@ namespace vitrel {
 template <>
 struct ShapeOf<bench::PredictedEllipse> : ShapeOf<Ellipse> {};
 
-/// Every pair is the method's to judge.
+/// The screen excludes no pair, so that the method predicts every pair.
 template <>
 class ContactScreen<bench::PredictedEllipse> : public bench::NoLowerBound<bench::PredictedEllipse> {
  public:
@@ -37,8 +37,8 @@ class ContactScreen<bench::PredictedEllipse> : public bench::NoLowerBound<bench:
 namespace vitrel::bench {
 namespace {
 
-// Found by Simulation<PredictedEllipse> in place of the default predictor. An answer that did not come
-// is no contact.
+// Simulation<PredictedEllipse> finds this function in place of the default predictor. If the method has no answer,
+// there is no contact.
 Prediction2 first_contact(const Flight<PredictedEllipse>& one, const Flight<PredictedEllipse>& two,
                           double horizon, double /*contact_gap*/, double /*screened_until*/,
                           const WarmStart<PredictedEllipse>& /*warm_start*/) {

@@ -15,8 +15,8 @@ struct SoftPair {
   Vec<Dim> translation;  ///< of the image of j
   ContactPair contact;
 
-  /// The force on j, that on i reversed, d from centre i to the image of centre j: along d, never attractive, and none
-  /// beyond contact.
+  /// The force on j, which is opposite to that on i. d points from centre i to the image of centre j. The force is
+  /// along d, is never attractive, and vanishes beyond contact.
   template <ContactForce Force>
   Vec<Dim> force(const Force& law, const Vec<Dim>& d, const Vec<Dim>& relative_velocity) const {
     if (d.squaredNorm() >= contact.distance * contact.distance) return Vec<Dim>::Zero();
@@ -25,12 +25,12 @@ struct SoftPair {
   }
 };
 
-/// All pairs closer than contact and a margin. Wraps the positions.
+/// Finds all pairs that are closer than contact and a margin. Wraps the positions.
 template <int Dim>
 std::vector<SoftPair<Dim>> find_soft_pairs(Configuration<Dim>& c, double margin) {
   for (std::size_t i = 0; i < c.size(); ++i) c.box.wrap(c.position[i], c.image[i]);
   std::vector<SoftPair<Dim>> pairs;
-  // (R₁ + R) scale ≥ R₁ + R₂ + margin, R the largest radius
+  // The scale satisfies (R₁ + R) scale ≥ R₁ + R₂ + margin for the largest radius R.
   for_each_pair(c, 1 + margin / largest_circumradius(c),
                 [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
                   const double radius1 = c.shape[i].circumradius(),

@@ -4,9 +4,9 @@
 
 namespace vitrel::bench {
 
-/// What an engine takes from a method that is not exact. Such a method finds the pair that has just
-/// collided touching still: a contact at which the surfaces recede is no answer (not_converged, known
-/// to be free up to time 0). The default method's answers remain as they are.
+/// The answer that an engine accepts from a method that is not exact. Such a method finds that the pair which has
+/// just collided still touches, so a contact at which the surfaces recede is no answer (not_converged, known to be
+/// free up to time 0). Answers of the default method are not changed.
 Prediction2 unchecked_answer(const Method& method, const CollisionCase& asked);
 
 }  // namespace vitrel::bench

@@ -20,7 +20,7 @@ double square(const Vec3& v) {
 template <int Dim>
 std::optional<CircleOverlap> circle_overlap(const Vec<Dim>& d, const Vec<Dim>& v, double radius,
                                             double growth, double horizon) {
-  // α t² + 2 β t + γ = 0
+  // Solves α t² + 2 β t + γ = 0.
   const double speed = v.norm();
   const double distance = d.norm();
   const double alpha = (speed - growth) * (speed + growth);
@@ -38,7 +38,7 @@ std::optional<CircleOverlap> circle_overlap(const Vec<Dim>& d, const Vec<Dim>& v
       begin = -(beta + root) / alpha;
     else
       return {};
-    // The other solution of the squared equation, where the sum of the radii is negative.
+    // This is the other solution of the squared equation, at which the sum of the radii is negative.
     if (radius + growth * begin < 0) return {};
   }
   if (!(begin <= horizon)) return {};
@@ -71,7 +71,7 @@ std::optional<Bracket> bracket_contact(const CollisionCaseOf<Dim>& asked) {
   const auto inner =
       circle_overlap<Dim>(d, v, one.inradius() + two.inradius(), inner_growth, asked.horizon);
   if (!inner) return Bracket{outer->begin, outer->end, false};
-  // Rounding may put the inner time of a round pair before the outer one.
+  // Rounding may put the inner time of a round pair before its outer time.
   return Bracket{std::min(outer->begin, inner->begin), inner->begin, true};
 }
 

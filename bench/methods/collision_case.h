@@ -14,17 +14,18 @@ namespace vitrel::bench {
 template <int Dim>
 using GrowingBody = std::conditional_t<Dim == 2, GrowingEllipse, GrowingEllipsoid>;
 
-/// One question to a collision-time method: when do these two first touch, up to the horizon?
+/// The input of a collision-time method: two bodies in flight, whose first contact up to the horizon is wanted.
 template <int Dim>
 struct CollisionCaseOf {
   Flight<GrowingBody<Dim>> one, two;
   double horizon = 0;
-  /// The same flights of ellipsoids that rotate by Euler's equations and do not grow; none if ω is constant.
+  /// The same flights as those of ellipsoids that rotate by Euler's equations and do not grow; empty if ω is
+  /// constant.
   std::vector<Flight<TumblingEllipsoid>> tumbling{};
 
   bool tumbles() const { return !tumbling.empty(); }
   bool grows() const { return one.body.growth_rate != 0 || two.body.growth_rate != 0; }
-  /// Gaps are given in units of the smallest semi-axis (at size 1).
+  /// The unit of gaps: the smallest semi-axis (at size 1).
   double gap_unit() const { return std::min(one.body.shape.inradius(), two.body.shape.inradius()); }
   /// The sum of the largest semi-axes (at size 1).
   double reach() const { return one.body.shape.circumradius() + two.body.shape.circumradius(); }
@@ -34,7 +35,7 @@ struct CollisionCaseOf {
 using CollisionCase = CollisionCaseOf<2>;
 using EllipsoidCase = CollisionCaseOf<3>;
 
-/// Lets both ellipsoids, as they are at time 0, rotate by Euler's equations.
+/// Lets both ellipsoids rotate by Euler's equations from their state at time 0.
 inline void let_tumble(EllipsoidCase& pair) {
   pair.tumbling.clear();
   for (const Flight<GrowingEllipsoid>& flight : {pair.one, pair.two})
@@ -46,7 +47,7 @@ inline Ellipse of_unit_area(double aspect_ratio) {
   return {std::sqrt(aspect_ratio), 1 / std::sqrt(aspect_ratio)};
 }
 
-/// A flight whose ellipse keeps its size.
+/// A flight of an ellipse that keeps its size.
 inline Flight<GrowingEllipse> of_constant_size(const Flight<Ellipse>& flight) {
   return {{flight.body, 1, 0}, flight.pose, flight.motion};
 }

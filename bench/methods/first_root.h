@@ -11,8 +11,8 @@
 
 namespace vitrel::bench {
 
-/// Root of f between `low`, where f > 0, and `high`, where f ≤ 0, to double precision: algorithm 748 of
-/// Alefeld, Potra and Shi, with a bound on the number of evaluations.
+/// The root of f between `low`, where f > 0, and `high`, where f ≤ 0, to double precision. It uses algorithm 748 of
+/// Alefeld, Potra and Shi with a bound on the number of evaluations.
 template <class Function>
 double root_between(Function&& f, double low, double f_low, double high, double f_high) {
   if (!(f_low > 0) || !(f_high < 0)) return f_high <= 0 && f_low > 0 ? high : low;
@@ -27,21 +27,21 @@ double root_between(Function&& f, double low, double f_low, double high, double 
   return 0.5 * (a + b);
 }
 
-/// The number of steps, each `fraction` of the whole.
+/// The number of steps if each is this fraction of the whole.
 inline int scan_steps_of(double fraction) {
   constexpr double max_steps = 1e6;
   return static_cast<int>(std::clamp(std::ceil(1 / fraction), 1.0, max_steps));
 }
 
 struct RootSearch {
-  std::optional<double> time;  ///< of the first change of sign that the scan saw
+  std::optional<double> time;  ///< of the first change of sign that the scan found
   int evaluations = 0;
 };
 
-/// The first change of sign of f, which is positive exactly where two bodies are disjoint.
+/// Finds the first change of sign of f, which is positive exactly where two bodies are disjoint.
 ///
-/// Scans the bracket in equal steps, `fraction` of it each, for the first sample where f is not
-/// positive, and refines within that step. What happens between two positive samples stays unseen.
+/// It scans the bracket in equal steps, each of which is `fraction` of it, for the first sample at which f is not
+/// positive, and refines within that step. It does not notice what happens between two positive samples.
 template <class Function>
 RootSearch first_root(Function&& f, const Bracket& bracket, double fraction) {
   const int steps = scan_steps_of(fraction);
@@ -66,7 +66,7 @@ RootSearch first_root(Function&& f, const Bracket& bracket, double fraction) {
     before = time;
     f_before = f_time;
   }
-  // The incircles touch there, whatever rounding makes of f.
+  // The incircles touch at `latest`, whatever value f has by rounding.
   if (bracket.certain) search.time = bracket.latest;
   return search;
 }

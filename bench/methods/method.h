@@ -9,23 +9,23 @@
 
 namespace vitrel::bench {
 
-/// A way to predict the first contact of two bodies, at one setting of its accuracy.
+/// A method to predict the first contact of two bodies, with a given accuracy.
 ///
-/// `predict` answers contact (time, normal from 1 to 2, point), none, not_converged, or overlap if
-/// it finds the pair overlapping at the start.
+/// `predict` answers contact (time, normal from 1 to 2, point), none, not_converged, or overlap if it finds that the
+/// pair overlaps at the start.
 template <int Dim>
 struct MethodOf {
-  std::string name;      ///< "slsqp"
-  double tolerance = 0;  ///< defined by each method, see its header
+  std::string name;      ///< for example "slsqp"
+  double tolerance = 0;  ///< its meaning depends on the method; see the method's header
   std::function<Prediction<Dim>(const CollisionCaseOf<Dim>&)> predict;
 };
 using Method = MethodOf<2>;
 
-/// Every method at its usual tolerance, the default first.
+/// Every method at its usual tolerance. The default method comes first.
 template <int Dim = 2>
 std::vector<MethodOf<Dim>> collision_time_methods();
 
-/// Every method at a series of tolerances, from coarse to fine: the points of the chart.
+/// Every method at a series of tolerances from coarse to fine, which are the points of the chart.
 template <int Dim = 2>
 std::vector<MethodOf<Dim>> collision_time_methods_by_tolerance();
 

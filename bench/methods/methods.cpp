@@ -17,13 +17,13 @@
 namespace vitrel::bench {
 namespace {
 
-/// A method before its tolerance is chosen.
+/// A method, before its tolerance is chosen.
 template <int Dim>
 struct Entry {
   const char* name;
   Prediction<Dim> (*predict)(const CollisionCaseOf<Dim>&, double tolerance);
   double usual;
-  std::vector<double> series;  ///< coarse to fine
+  std::vector<double> series;  ///< from coarse to fine
 
   MethodOf<Dim> at(double tolerance) const {
     return {name, tolerance, [predict = predict, tolerance](const CollisionCaseOf<Dim>& asked) {

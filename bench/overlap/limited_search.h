@@ -3,12 +3,13 @@
 #include "bench/overlap/overlap_case.h"
 
 /// @file
-/// The contact function of Perram and Wertheim with a limit to its steps, as programs use it that call a pair disjoint
-/// for which they have found no answer by then.
+/// The contact function of Perram and Wertheim with a limited number of steps, as in programs that call a pair
+/// disjoint if they have found no answer by then.
 namespace vitrel::bench {
 
-/// Bisects for the maximum of F(λ) (perram_wertheim.h). F > 1 somewhere proves that the pair is disjoint, and where the
-/// tangents at both ends of the interval meet below 1, F being concave, it overlaps. Undecided after `steps`: disjoint.
+/// Bisects for the maximum of F(λ) (perram_wertheim.h). The pair is disjoint if F > 1 anywhere. It overlaps if the
+/// tangents at both ends of the interval meet below 1, because F is concave. If neither is decided after `steps`, the
+/// pair counts as disjoint.
 template <int Dim>
 bool disjoint_or_undecided(const OverlapCase<Dim>& asked, int steps) {
   const auto matrix = [](const BodyIn<Dim>& body, const PoseIn<Dim>& pose) {

@@ -110,7 +110,7 @@ OverlapCase<Dim> make_overlap_case(const OverlapClass& of, std::uint64_t seed,
   } else {
     const PerramWertheim<Dim> touching = scaled_to_touch(asked, way);
     const double gap = drawn_gap(of.kind, draw) * asked.gap_unit();
-    // Along the line of centres the gap grows by n·way per unit of distance.
+    // Along the line of centres, the gap grows by n·way per unit of distance.
     distance = 1 / std::sqrt(touching.value) + gap / touching.normal.dot(way);
   }
   asked.pose2.position = asked.pose1.position + distance * way;

@@ -14,7 +14,7 @@ using BodyIn = std::conditional_t<Dim == 2, Ellipse, Ellipsoid>;
 template <int Dim>
 using PoseIn = std::conditional_t<Dim == 2, Pose2, Pose3>;
 
-/// One question to an overlap criterion: are these two disjoint?
+/// The input of an overlap criterion: two bodies, which may be disjoint.
 template <int Dim>
 struct OverlapCase {
   BodyIn<Dim> one, two;
@@ -32,28 +32,28 @@ struct OverlapClass {
   double aspect_ratio = 2;
 };
 
-/// For several aspect ratios κ, the longest semi-axis over the shortest, bodies of unit a b (c) and their likes of up
-/// to twice the size; in space a quarter of them is prolate, a quarter oblate and the rest scalene:
-/// - random: centres anywhere within a₁ + a₂, so crossed and contained pairs are among them;
-/// - near_contact: a gap of up to ±0.1 of the gap unit;
-/// - grazing: a gap of ±10⁻³ … ±10⁻¹², evenly in its logarithm.
+/// Classes for several aspect ratios κ (longest over shortest semi-axis), with bodies of unit a b (c) and similar
+/// bodies of up to twice the size. In space a quarter of them is prolate, a quarter oblate, and the rest scalene.
+/// - random: centres lie anywhere within a₁ + a₂, so that some pairs are crossed or contain each other;
+/// - near_contact: gaps are up to ±0.1 of the gap unit;
+/// - grazing: gaps are ±10⁻³ … ±10⁻¹² of it, uniform in their logarithm.
 template <int Dim>
 std::vector<OverlapClass> overlap_classes();
 
-/// Case number `index` of a class; a pure function of its arguments.
+/// Case number `index` of a class. It is a pure function of its arguments.
 template <int Dim>
 OverlapCase<Dim> make_overlap_case(const OverlapClass& of, std::uint64_t seed, std::uint64_t index);
 
 struct OverlapTruth {
   bool disjoint = false;
-  /// n·d − h₁(n) − h₂(n) along the common normal n of the bodies scaled to touch: the distance of
-  /// the surfaces if they are close (negative: the depth of the overlap), otherwise its order.
+  /// n·d − h₁(n) − h₂(n) along the common normal n of the bodies scaled until they touch. If the surfaces are close,
+  /// this is their distance (negative: minus the depth of the overlap); otherwise it has the order of the distance.
   double gap = 0;
 };
 
-/// The complete criterion of Vieillard-Baron, in space that of the five signs η, in 80-bit arithmetic: right unless the
-/// surfaces are closer than 1e-17 of their size. Of the criteria compared with it the one in double precision shares
-/// its formula, so what is tested there is the arithmetic; the proofs of the formulas are in
+/// The answer by the complete criterion of Vieillard-Baron, in space that of the five signs η, in 80-bit arithmetic.
+/// It is right unless the surfaces are closer than 1e-17 of their size. The criterion in double precision that is
+/// compared with it shares its formula, so that comparison tests the arithmetic. The formulas are proved in
 /// core/contact/ellipse_vieillard_baron.h and ellipsoid_eta.h.
 template <int Dim>
 OverlapTruth true_overlap(const OverlapCase<Dim>& asked);

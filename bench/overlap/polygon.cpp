@@ -7,7 +7,8 @@
 namespace vitrel::bench {
 namespace {
 
-// A centrally symmetric polygon is its centre and half of its vertices, relative to it.
+// A centrally symmetric polygon is determined by its centre and by half of its vertices, given relative to the
+// centre.
 using HalfPolygon = std::vector<Vec2>;
 
 HalfPolygon image(const RegularPolygon& shape, const Ellipse& ellipse, double angle) {

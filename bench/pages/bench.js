@@ -1,6 +1,6 @@
 const data = pageData;
 
-// Tables. A cell is a text, or {text, class, title}.
+// Tables. A cell is a text or {text, class, title}.
 
 function tableRow(cells) {
   const row = element('tr');
@@ -36,7 +36,7 @@ function details(summary, ...content) {
 
 const looks = { line: { thin: true }, full: { points: 'full' }, hollow: { points: 'hollow' } };
 
-/** A chart of a part, whose curves get the colours of their numbers. */
+/** Adds a chart of a part. The colours of its curves follow their numbers. */
 function addChart(host, file, { symbol, unit, curves, ...rest }) {
   const place = element('div', { class: 'chart' });
   host.append(place);

@@ -18,12 +18,12 @@
 namespace vitrel::bench {
 namespace {
 
-/// What a method answers, and how long it takes.
+/// The answer of a method, and the time it takes.
 struct Answer {
   std::string method;
   double tolerance;
   Outcome outcome;
-  double time;  ///< NaN without a contact
+  double time;  ///< NaN if there is no contact
   double ns_per_call;
 };
 
@@ -84,7 +84,7 @@ Json overlap_json(const Pair<Dim>& pair) {
   return {{"found", found}, {"ns_per_call", ns}};
 }
 
-/// The default method first, whether it is asked for or not.
+/// The answers of the methods. The default method comes first, whether it is requested or not.
 template <int Dim>
 std::vector<Answer> answers(const Pair<Dim>& pair, const std::vector<std::string>& names) {
   const auto all = collision_time_methods<Dim>();
@@ -94,7 +94,7 @@ std::vector<Answer> answers(const Pair<Dim>& pair, const std::vector<std::string
   return found;
 }
 
-/// Null if it is not a number.
+/// The number; null if it is NaN.
 Json number(double value) {
   return std::isnan(value) ? Json(nullptr) : Json(value);
 }

@@ -73,7 +73,7 @@ TaylorTop::Real TaylorTop::step(const Series& series) {
   constexpr Real last_term = std::numeric_limits<Real>::epsilon() / 16;
   constexpr Real at_rest = std::numeric_limits<Real>::min();
   const Real speed = std::max(series.omega[0].norm(), at_rest);
-  Real longest = std::numeric_limits<double>::max();  // a body at rest
+  Real longest = std::numeric_limits<double>::max();  // the value for a body at rest
   for (const int n : {order - 1, order}) {
     const Real size = std::max(series.omega[n].norm() / speed, series.attitude[n].norm());
     if (size > 0) longest = std::min(longest, std::pow(last_term / size, Real(1) / n));

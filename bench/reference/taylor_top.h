@@ -7,22 +7,23 @@
 
 namespace vitrel::bench {
 
-/// The free rotation of a homogeneous ellipsoid by Taylor series of Euler's equations, in 80-bit arithmetic. It shares
-/// no code with the closed form (core/geometry/asymmetric_top.h).
+/// The free rotation of a homogeneous ellipsoid by Taylor series of Euler's equations, in 80-bit arithmetic. It
+/// shares no code with the closed form (core/geometry/asymmetric_top.h).
 ///
 /// With ω along the axes of the body and q the quaternion of its attitude,
 ///
 ///     dωᵢ/dt = fᵢ ωⱼ ωₖ,   dq/dt = ½ q ω,   fᵢ = (Iⱼ − Iₖ)/Iᵢ = (aₖ² − aⱼ²)/(aⱼ² + aₖ²),
 ///
-/// so that every coefficient of the series follows from those before it. A step ends where the last two terms, relative
-/// to |ω| and |q|, reach a sixteenth of the rounding; up to there the series is evaluated at any time.
+/// so every coefficient of the series follows from the previous ones. A step ends where the last two terms, relative
+/// to |ω| and |q|, reach a sixteenth of the rounding. Within the step the series can be evaluated at any time.
 class TaylorTop {
  public:
   using Real = long double;
   using Vector = Eigen::Matrix<Real, 3, 1>;
   using Matrix = Eigen::Matrix<Real, 3, 3>;
 
-  /// From time 0 to `end`, which may be negative. Orientation and angular velocity, in space, are those at time 0.
+  /// Integrates from time 0 to `end`, which may be negative. `orientation` and `angular_velocity` are those at time
+  /// 0, in space.
   TaylorTop(const Ellipsoid& shape, const Quaternion& orientation, const Vec3& angular_velocity,
             Real end);
 
@@ -33,22 +34,23 @@ class TaylorTop {
   };
   State at(Real time) const;
 
-  /// |ω| never exceeds √(2E/I₁) ≤ L/I₁, I₁ the smallest moment, since 2E = Σ Iᵢωᵢ² ≥ I₁ω².
+  /// An upper bound of |ω|: |ω| ≤ √(2E/I₁) ≤ L/I₁ with the smallest moment I₁, since 2E = Σ Iᵢωᵢ² ≥ I₁ω².
   Real speed_bound() const { return speed_bound_; }
 
-  /// An estimate of the angle by which the body is off at `time`, in units of a relative error of its initial state:
+  /// An estimate of the angle by which the body is off at `time`, in units of the relative error of its initial
+  /// state:
   ///
   ///     Ω t min(e^(λt), max(L², 2EI₂)/|L² − 2EI₂|),   λ² = 2E/I₂ · (I₃ − I₂)(I₂ − I₁)/(I₁I₃),
   ///
-  /// Ω the bound above. About the axis of the middle moment the body is unstable at the rate λ at most; and the period
-  /// diverges like −ln|L² − 2EI₂| at the separatrix.
+  /// with the bound Ω above. Rotation about the axis of the middle moment is unstable at a rate of at most λ, and the
+  /// period diverges as −ln|L² − 2EI₂| at the separatrix.
   Real sensitivity(Real time) const;
 
  private:
   static constexpr int order = 24;
   using Attitude = Eigen::Quaternion<Real>;
 
-  /// The coefficients from the time `start` on.
+  /// The coefficients of the step that begins at `start`.
   struct Series {
     Real start;
     std::array<Vector, order + 1> omega;

@@ -63,7 +63,7 @@ struct Means {
   double msd = 0, msr = 0, fs = 0, order = 0;
 };
 
-/// At every time difference, from the same origins.
+/// Computes the means at every time difference directly, with the same origins.
 std::vector<Means> plain_means(MemoryTrajectory2& run, const DisplacementOptions& options) {
   const std::size_t frames = run.frames(), particles = run.read(0).size();
   std::vector<Vec2> position(frames * particles);
@@ -92,7 +92,7 @@ std::vector<Means> plain_means(MemoryTrajectory2& run, const DisplacementOptions
   return all;
 }
 
-/// The largest difference of a mean, relative to its value at the longest time difference if that is above 1.
+/// The largest difference between means, relative to the mean if that is above 1.
 double difference(const Displacements& found, const std::vector<Means>& plain) {
   const DisplacementGroup& all = found.groups.front();
   double largest = 0;
@@ -140,7 +140,8 @@ Json measure_motion(const StudyContext& context) {
 
 // ---- estimators of motion -----------------------------------------------------------------------------
 
-using Curve = std::vector<std::pair<std::size_t, double>>;  ///< steps, mean squared displacement
+/// Pairs of a number of steps and a mean squared displacement.
+using Curve = std::vector<std::pair<std::size_t, double>>;
 
 Curve by_displacements(MemoryTrajectory2& run, const Size& size, std::size_t origins) {
   DisplacementOptions options = options_of(size);
@@ -168,7 +169,7 @@ Curve by_multiple_tau(MemoryTrajectory2& run, const Size& size) {
   return curve;
 }
 
-/// From all origins: ⟨r(t)²⟩ + ⟨r(0)²⟩ by running sums, and ⟨r(t)·r(0)⟩ by Fourier transforms of twice the length.
+/// Uses all origins: ⟨r(t)²⟩ + ⟨r(0)²⟩ by running sums, and ⟨r(t)·r(0)⟩ by Fourier transforms of twice the length.
 Curve by_transforms(MemoryTrajectory2& run, const Size& size) {
   const std::size_t frames = run.frames(), length = 2 * frames;
   const FourierArray<double> path = real_array(length);
@@ -206,11 +207,12 @@ Curve by_transforms(MemoryTrajectory2& run, const Size& size) {
   return curve;
 }
 
-/// Σ (relative deviation from 2 · step² t in the plane)² over the time differences that all estimators have.
+/// The mean of (relative deviation from 2 · step² t)², the law in the plane, over the time differences that all
+/// estimators have.
 double squared_deviation(const Curve& curve) {
   double sum = 0, count = 0;
   for (const auto& [steps, msd] : curve) {
-    if (steps == 0 || (steps & (steps - 1)) != 0) continue;  // powers of two
+    if (steps == 0 || (steps & (steps - 1)) != 0) continue;  // only powers of two
     const double exact = 2 * step * step * static_cast<double>(steps);
     sum += (msd / exact - 1) * (msd / exact - 1), ++count;
   }

@@ -19,7 +19,7 @@
 namespace vitrel::bench {
 namespace {
 
-/// Times in units of 1/D₀, D₀ = τ_B/2 the diffusion coefficient of a free particle.
+/// Times are in units of 1/D₀ with the diffusion coefficient D₀ = τ_B/2 of a free particle.
 struct Liquid {
   double packing_fraction, duration, equilibration, interval;
 };
@@ -31,7 +31,7 @@ struct Effort {
   int particles = 400;
   std::uint64_t seeds = 8;
   std::size_t liquids = 4, first_step = 0;
-  double share = 1;  ///< of the duration
+  double share = 1;  ///< share of the duration that is run
 };
 const Effort quick{50, 1, 1, 1, 0.5};
 
@@ -74,7 +74,7 @@ longest_lag = 0.25
                      unit * liquid.duration * effort.share, unit * liquid.interval);
 }
 
-/// The results of one liquid with one step: an entry for each seed.
+/// The results of one liquid with one step, with an entry for each seed.
 struct Seeds {
   std::vector<double> translation, rotation;  ///< D₀ τ
   std::vector<double> seconds;                ///< for D₀ t = 1
@@ -109,7 +109,7 @@ Json row_of(const Liquid& liquid, double step, const Seeds& seeds, const Seeds& 
               {"translation", translation.value},
               {"rotation", rotation.value}};
   if (&seeds == &shortest) return row;
-  // The runs of a seed begin with the same state, so that they are compared one by one.
+  // The runs of a seed begin with the same state, so they are compared seed by seed.
   std::vector<double> ratios;
   for (std::size_t k = 0; k < seeds.translation.size(); ++k)
     ratios.push_back(seeds.translation[k] / shortest.translation[k]);
@@ -120,7 +120,7 @@ Json row_of(const Liquid& liquid, double step, const Seeds& seeds, const Seeds& 
   return row;
 }
 
-/// One state of equilibrium for each seed, from which the runs with all steps begin.
+/// Prepares one equilibrium state for each seed, from which the runs with all steps begin.
 void add_liquid(const StudyContext& context, const Effort& effort, const Liquid& liquid,
                 Json& rows) {
   std::vector<Seeds> of_step(steps.size());

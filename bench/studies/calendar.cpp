@@ -1,10 +1,9 @@
-// Every calendar is driven by the same model of the event loop. Particles are on a square lattice. The
-// earliest event is a collision (one half), after which two neighbours and sometimes particles around
-// them are rescheduled; or a stale event (a quarter), after which only the particle itself is
-// rescheduled; or a repeated contact screen (a quarter), after which it is rescheduled within a tenth of
-// the usual waiting time. Waiting times are exponential. Rescheduling reads the times of seven
-// neighbours and 64 bytes of each. The same loop without a calendar is timed as well, and its time is
-// subtracted. Neighbours are anywhere in memory, as in a liquid after a long time.
+// The same model of the event loop drives every calendar. Particles are on a square lattice. Half of the earliest
+// events are collisions, after which two neighbours, and sometimes particles around them, are rescheduled. A quarter
+// are stale events, after which only the particle itself is rescheduled. A quarter are repeated contact screens,
+// after which the particle is rescheduled within a tenth of the usual waiting time. Waiting times are exponential.
+// Rescheduling reads the times of seven neighbours and 64 bytes of each. The same loop without a calendar is timed as
+// well, and its time is subtracted. Neighbours are anywhere in memory, as in a liquid after a long time.
 
 #include "bench/studies/calendar.h"
 
@@ -27,7 +26,7 @@
 namespace vitrel::bench {
 namespace {
 
-/// Costs nothing and knows nothing: what is left is the loop itself.
+/// A calendar that costs and stores nothing, so that only the loop itself remains.
 class NoCalendar {
  public:
   explicit NoCalendar(std::size_t particles) : particles_(particles) {}
@@ -44,7 +43,7 @@ class NoCalendar {
   double time_ = 0;
 };
 
-/// Where everything stands in memory.
+/// The places of particles in memory.
 struct Scene {
   static constexpr std::size_t neighbors = 8;
   struct alignas(64) Record {
@@ -67,7 +66,8 @@ struct Scene {
   std::vector<std::array<std::uint32_t, neighbors>> around;
 };
 
-/// Cheap enough not to be seen beside the calendar (Marsaglia's xorshift; waiting times by a table).
+/// Random numbers whose cost is negligible beside that of the calendar (Marsaglia's xorshift; waiting times from a
+/// table).
 class Draws {
  public:
   Draws() {
@@ -102,7 +102,7 @@ class Loop {
   }
 
   void run_timed(std::uint64_t events) {
-    const std::clock_t start = std::clock();  // of this process: others do not count
+    const std::clock_t start = std::clock();  // of this process, so that others do not count
     run(events);
     const double spent = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     best_ = std::min(best_, 1e9 * spent / static_cast<double>(events));
@@ -151,7 +151,7 @@ void measure(std::size_t n, int repeats, Json& rows) {
   Loop<NoCalendar> nothing(scene);
   Loop<Calendar> calendar(scene);
   Loop<HeapCalendar> heap(scene);
-  // Longer than a window of the calendar (some 9 N), so that every run has its share of renewals.
+  // More events than a window of the calendar holds (some 9 N), so that every run has its share of renewals.
   const std::uint64_t events = std::max<std::uint64_t>(200'000, 10 * n);
   calendar.run(2 * n);
   heap.run(2 * n);
@@ -162,7 +162,7 @@ void measure(std::size_t n, int repeats, Json& rows) {
   }
   if (calendar.now() != heap.now())
     throw std::logic_error("two calendars disagree about the same run");
-  // What was read counts as used, or the reading would be left out.
+  // This uses the values that were read, so that the compiler keeps the reading.
   if (std::isnan(calendar.seen() + nothing.seen())) throw std::logic_error("a time is no number");
   for (const auto& [name, ns] :
        {std::pair("calendar", calendar.ns_per_event()), std::pair("heap", heap.ns_per_event())})

@@ -4,7 +4,7 @@
 
 namespace vitrel::bench {
 
-/// The calendar of the engine and a heap, both driven by the same model of the event loop.
+/// Compares the calendar of the engine with a heap; the same model of the event loop drives both.
 Part calendar_part();
 
 }  // namespace vitrel::bench

@@ -12,7 +12,7 @@ struct Named {
   std::string name;
 };
 
-/// Those of `all` that are called one of `names`, in the order of `all`; all of them without names.
+/// The entries of `all` whose name is in `names`, in the order of `all`; all entries if `names` is empty.
 template <class One>
 std::vector<One> selected(std::vector<One> all, const std::vector<std::string>& names) {
   if (!names.empty())
@@ -20,7 +20,8 @@ std::vector<One> selected(std::vector<One> all, const std::vector<std::string>& 
   return all;
 }
 
-/// The same. Throws UserError for a name that nothing bears; `kind` says what they are ("method").
+/// Chooses entries in the same way, but throws UserError for a name that no entry has. `kind` is the word for the
+/// entries ("method").
 template <class One>
 std::vector<One> chosen(const std::vector<One>& all, const std::vector<std::string>& names,
                         const std::string& kind) {
@@ -35,7 +36,7 @@ std::vector<One> chosen(const std::vector<One>& all, const std::vector<std::stri
   return selected(all, names);
 }
 
-/// Their names, each once.
+/// The names of the entries, each listed once.
 template <class One>
 std::vector<std::string> names_of(const std::vector<One>& all) {
   std::vector<std::string> names;

@@ -17,10 +17,10 @@
 namespace vitrel::bench {
 namespace {
 
-/// Where the tolerance is varied, a coarse answer counts as correct if it is off by no more than this.
+/// If the tolerance is varied, a coarse answer counts as correct with errors up to this value.
 constexpr double coarse_tolerance = 1e-2;
 
-/// Random pairs of the smallest aspect ratio.
+/// Classes of random pairs with the smallest aspect ratio.
 template <int Dim>
 std::vector<CaseClassOf<Dim>> random_classes() {
   std::vector<CaseClassOf<Dim>> result;
@@ -53,7 +53,8 @@ Json rows_json(const std::vector<SurveyRow>& rows) {
   return list;
 }
 
-/// Every method at its usual tolerance. The default method answers all pairs, the others what their time allows.
+/// Measures every method at its usual tolerance. The default method answers all pairs, the others as many as their
+/// time allows.
 template <int Dim>
 Json measure(const StudyContext& context) {
   const StudyOptions& options = context.options;
@@ -75,7 +76,7 @@ Json measure(const StudyContext& context) {
   return rows_json(found.rows);
 }
 
-/// Every method at every tolerance; those of one method share its time.
+/// Measures every method at every tolerance. All tolerances of a method share its time.
 template <int Dim>
 Json measure_tolerances(const StudyContext& context) {
   const StudyOptions& options = context.options;
@@ -89,7 +90,7 @@ Json measure_tolerances(const StudyContext& context) {
   return rows_json(survey(request, context.control).rows);
 }
 
-/// What the reference and these methods answer about one pair. Without methods that are not made for it.
+/// The answers of the reference and of these methods for one pair, without methods that are not made for it.
 template <int Dim>
 Json answers(const CollisionCaseOf<Dim>& asked, const std::vector<MethodOf<Dim>>& all) {
   const auto truth = static_cast<double>(truth_of(asked).time);

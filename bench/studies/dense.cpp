@@ -22,12 +22,12 @@
 namespace vitrel::bench {
 namespace {
 
-/// Particles, of one species for each entry of `sizes`.
+/// Particles with one species for each entry of `sizes`.
 struct System {
   std::string name;
   double aspect_ratio;
   std::vector<std::string> sizes;
-  std::vector<double> packing_fractions;  ///< that are to be reached
+  std::vector<double> packing_fractions;  ///< packing fractions to be reached
 };
 const std::string inverse_cube = R"({ distribution = "power_law", low = 0.725, high = 1.61 })";
 const std::vector<System> systems = {
@@ -66,14 +66,14 @@ std::string preparation_text(const System& system, int particles, double packing
          stage + "\n";
 }
 
-/// Up to this packing fraction.
+/// The parameters of a preparation up to this packing fraction.
 std::string preparation_text(const System& system, int particles, double packing_fraction,
                              const Way& way) {
   return preparation_text(system, particles, packing_fraction,
                           fmt::format("{}\npacking_fraction = {}", way.stage, packing_fraction));
 }
 
-/// How a preparation ended: "reached", "stuck" or "time is up".
+/// The end of a preparation: "reached", "stuck" or "time is up".
 struct End {
   std::string how;
   double seconds = 0;
@@ -83,7 +83,7 @@ struct End {
   bool is_reached() const { return how == "reached"; }
 };
 
-/// Prepares a state in so many seconds of the processor, if that is possible.
+/// Prepares a state within this processor time, if that is possible.
 End prepared(const std::string& text, double seconds, const RunControl& control) {
   const ScratchFolder folder;
   const std::filesystem::path output = folder.partial() / "state.h5";
@@ -122,7 +122,7 @@ Json density_row(const Way& way, const System& system, int particles, double phi
   return row;
 }
 
-/// A method that does not reach a packing fraction is left out of the denser ones.
+/// A method that fails to reach a packing fraction is left out for the denser ones.
 Json measure_densities(const StudyContext& context) {
   const bool quick = context.options.quick;
   const int particles = quick ? 50 : 1000;
@@ -162,7 +162,7 @@ Json measure_sizes(const StudyContext& context) {
 
 // ---- up to jamming ----------------------------------------------------------------------------------
 
-/// The deficit of each row beside the densest one of its system.
+/// Adds to each row its deficit compared with the densest state of its system.
 void add_deficits(Json& rows, std::size_t first) {
   double densest = 0;
   for (std::size_t k = first; k < rows.size(); ++k)

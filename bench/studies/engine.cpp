@@ -23,13 +23,13 @@
 namespace vitrel::bench {
 namespace {
 
-/// How much is measured, and for how long.
+/// The amount and the duration of the measurements.
 struct Effort {
   int repeats = 5;
-  double stretch = 1;  // seconds of a repeat, at least
+  double stretch = 1;  // seconds that a repeat takes at least
   int disks = 4096, ellipses = 1024;
   int spheres = 10'000, ellipsoids = 1'000;
-  int tile = 1000;  // particles
+  int tile = 1000;  // number of particles
   int gas = 2000;
   std::vector<std::pair<int, int>> tilings = {{1, 1}, {5, 2}, {10, 10}, {40, 25}};
 };
@@ -39,7 +39,7 @@ Effort effort_of(const StudyContext& context) {
                                : Effort{};
 }
 
-/// Engines in turns from the same state, a row for each.
+/// Runs the engines in turns from the same state, and adds a row for each.
 template <int Dim>
 void add_rows(const Effort& effort, const Configuration<Dim>& start, const Json& about,
               const MadeEngines<Dim>& engines, Json& rows) {
@@ -52,7 +52,7 @@ void add_rows(const Effort& effort, const Configuration<Dim>& start, const Json&
   }
 }
 
-/// A liquid that has also moved by event-driven dynamics.
+/// A liquid that has also evolved by event-driven dynamics.
 template <class Shape>
 Configuration<Shape::dimension> relaxed(const Shape& shape, int particles, double packing_fraction,
                                         double seconds) {
@@ -71,7 +71,7 @@ Ellipsoid of_unit_volume(const Vec3& semi_axes) {
   return {semi_axes / std::cbrt(semi_axes.prod())};
 }
 
-/// Round bodies also as general ones.
+/// The engines for a state. Round bodies also run as general ones.
 template <int Dim>
 MadeEngines<Dim> engines_for(const Configuration<Dim>& start) {
   MadeEngines<Dim> engines = {{"engine", chosen_for(start)}};
@@ -120,12 +120,12 @@ Json measure_sizes(const StudyContext& context) {
       auto engine = make_engine(start, {});
       RunCounters counters;
       engine->load(start);
-      engine->advance(start.time, counters);  // predicts
+      engine->advance(start.time, counters);  // makes the first predictions
       const std::size_t allocated = allocated_bytes() - before;
       TimedRun run(std::move(engine), start);
       const auto n = static_cast<double>(start.size());
       constexpr double max_stretches = 20;
-      run.blocks(0);  // mixes
+      run.blocks(0);  // mixes the copies of the tile
       Repeats repeats;
       double spent = 0;
       for (int k = 0; k < effort.repeats && spent < max_stretches * effort.stretch; ++k) {

@@ -19,17 +19,17 @@
 namespace vitrel::bench {
 namespace {
 
-/// Pairs whose gap is below this, in gap units, are left out: positions and semi-axes in double precision do not carry
-/// a smaller gap, and two right criteria may differ.
+/// Pairs whose gap is smaller, in gap units, are left out, because positions and semi-axes in double precision do not
+/// determine such a gap, so that two right criteria may differ.
 constexpr double smallest_judged_gap = 1e-13;
 
-/// A way to tell whether two bodies are disjoint. Every one is asked with positions and orientations, so the sines and
-/// cosines are in its time.
+/// A criterion that tells whether two bodies are disjoint. Every criterion is given positions and orientations, so
+/// its time includes the sines and cosines.
 template <int Dim>
 struct Criterion {
   std::string name;
   std::function<bool(const OverlapCase<Dim>&)> disjoint;
-  std::string curve = {};  ///< of criteria that differ in one number
+  std::string curve = {};  ///< common to criteria that differ in one number
 };
 
 VieillardBaron<double> contact_function(const OverlapCase<2>& asked) {
@@ -113,7 +113,7 @@ Asked<Dim> make_cases(const StudyOptions& options, const OverlapClass& of) {
   return asked;
 }
 
-/// A slow criterion answers as many pairs as its time allows.
+/// Measures a criterion. A slow one answers as many pairs as its time allows.
 template <int Dim>
 Json examined(const Criterion<Dim>& criterion, const OverlapClass& of, const Asked<Dim>& asked,
               double seconds) {

@@ -1,4 +1,4 @@
-// What do shortcuts cost that other programs are known to take?
+// What do the shortcuts cost that other programs are known to take?
 
 #include <nlohmann/json.hpp>
 
@@ -8,7 +8,7 @@
 namespace vitrel::bench {
 namespace {
 
-/// A part of another study with some of its methods.
+/// A part of another study, restricted to some of its methods.
 Part some_methods(const Study& study, const std::string& name, const std::string& about,
                   const std::vector<std::string>& methods) {
   Part part = selected(study.parts, {name}).front();

@@ -13,13 +13,13 @@
 
 namespace vitrel::bench {
 
-/// Work that was done several times, here and there in alternation with other work.
+/// Measurements of work that was repeated in alternation with other work.
 class Repeats {
  public:
   void add(const Work& work) { works_.push_back(work); }
   double last_seconds() const { return works_.back().seconds; }
 
-  /// The best time, the median, and counts per collision over all.
+  /// The best time, the median, and the counts per collision over all repeats.
   Json json() const {
     std::vector<double> times;
     Work sum;
@@ -58,7 +58,8 @@ using MakeEngine = std::function<std::unique_ptr<Engine<Dim>>()>;
 template <int Dim>
 using MadeEngines = std::vector<std::pair<std::string, MakeEngine<Dim>>>;
 
-/// Engines in turns from the same state, a row for each: its name as method, and its times and counts.
+/// Runs the engines in turns from the same state. The result has a row for each engine, with its name as method, and
+/// its times and counts.
 template <int Dim>
 Json alternating_runs(const Configuration<Dim>& start, const MadeEngines<Dim>& engines, int repeats,
                       double min_seconds) {

@@ -38,7 +38,7 @@ const Effort quick{500, 8, 2000};
 constexpr ValueRange radius{0.001, 0.1}, density{250, 3250}, speed{0.001, 25},
     eccentricity{0.01, 0.99};
 
-/// Ranges of the material, and one of the corners of them.
+/// The ranges of the parameters of a material, and the material at given values of them.
 template <class Force>
 struct Materials;
 
@@ -76,7 +76,7 @@ double obliqueness(double of_eccentricity) {
   return std::log(of_eccentricity / std::sqrt(1 - of_eccentricity * of_eccentricity));
 }
 
-/// What the corners of all ranges span.
+/// The domain that the corners of all ranges span.
 template <class Force>
 RestitutionDomain domain_of_the_source() {
   std::vector<ContactPair> pairs;
@@ -111,7 +111,7 @@ ScaledImpact impact_at(const RestitutionDomain& domain, double g, double m, doub
           std::exp(within(domain.d, d)) * std::pow(distance, -Force::damping_exponent)};
 }
 
-/// Uniform in g, m and d.
+/// Impacts that are uniformly distributed in g, m and d.
 template <class Force>
 std::vector<ScaledImpact> random_impacts(const RestitutionDomain& domain, int count) {
   Stream draw(1, Purpose::benchmark_cases);
@@ -123,7 +123,7 @@ std::vector<ScaledImpact> random_impacts(const RestitutionDomain& domain, int co
   return all;
 }
 
-/// The middles of equal cells.
+/// Impacts at the centres of the cells of a lattice in g, m and d.
 template <class Force>
 std::vector<ScaledImpact> lattice_impacts(const RestitutionDomain& domain, int cells) {
   const int layers = domain.d.low == domain.d.high ? 1 : cells;
@@ -138,7 +138,7 @@ std::vector<ScaledImpact> lattice_impacts(const RestitutionDomain& domain, int c
 
 // --- errors --------------------------------------------------------------------------------------------------
 
-/// ε_φ, ε_t and ε_ṙ relative, and ε_r absolute.
+/// Absolute error of ε_r, and relative errors of ε_φ, ε_t and ε_ṙ.
 using Errors = std::array<double, 4>;
 
 Errors errors_of(const Restitution& found, const Restitution& expected) {
@@ -162,7 +162,6 @@ Errors largest(const std::vector<Errors>& all) {
   return most;
 }
 
-/// The integration, beside the plain equations in extended precision where these are good for it.
 Effort effort_of(const StudyContext& context) {
   return context.options.quick ? quick : Effort{};
 }
@@ -177,7 +176,7 @@ double nanoseconds(const std::vector<ScaledImpact>& impacts, Find&& find) {
   return 1e9 * seconds / static_cast<double>(impacts.size());
 }
 
-/// The table, and the integration for the same impacts.
+/// Measures a table, and the integration for the same impacts.
 template <class Force>
 Json table_rows(const std::string& kind, const RestitutionDomain& domain, double tolerance,
                 const Effort& effort) {
@@ -228,7 +227,8 @@ Json joined(std::initializer_list<Json> tables) {
   return rows;
 }
 
-/// The domain of the source; and equal spheres of its figure 7, with some damping, and radii that differ by 20 %.
+/// Tables for the domain of the source, for the equal spheres of its figure 7 with some damping, and for radii that
+/// differ by 20 %.
 template <class Force>
 Json all_tables(const Force& material, const Effort& effort) {
   RestitutionDomain whole = domain_of_the_source<Force>(), elastic = whole;

@@ -19,7 +19,7 @@
 namespace vitrel::bench {
 namespace {
 
-/// FileError if the folder is not there and cannot be made, as something on its path is a file.
+/// Throws FileError if the folder does not exist and cannot be created because part of its path is a file.
 void require_output_folder(const std::filesystem::path& output) {
   std::filesystem::path there = std::filesystem::absolute(output);
   while (!std::filesystem::exists(there)) there = there.parent_path();
@@ -28,7 +28,7 @@ void require_output_folder(const std::filesystem::path& output) {
                                 there.string()));
 }
 
-/// Its name by the system; empty if that does not tell.
+/// The name that the system gives the processor; empty if it gives none.
 std::string processor() {
   const std::string key = "model name";
   const std::string all =
@@ -64,8 +64,9 @@ const Part& part_named(const Study& study, const std::string& name) {
   return *std::ranges::find(study.parts, name, &Part::name);
 }
 
-/// The sentences and tables of all parts, with the charts that scripts/validate saves in the folder of the study, or
-/// without. All numbers of a part if they are few; else how costs compare, unless charts show it.
+/// The sentences and tables of all parts, with or without the charts that scripts/validate saves in the folder of the
+/// study. A part shows all its numbers if they are few. Otherwise it shows how costs compare, unless charts show
+/// that.
 std::string parts_text(const Study& study, const Json& numbers, bool has_charts) {
   constexpr std::size_t few_rows = 24;
   std::string text;
@@ -111,7 +112,7 @@ void write_all(const std::filesystem::path& file, const Study& study, const Json
     write(file / (study.name + kind), study, numbers);
 }
 
-/// Throws UserError for a name that no part has.
+/// Throws UserError for a name that occurs in no part.
 void require_known(const std::vector<Part>& parts, std::vector<std::string> Part::*names,
                    const std::vector<std::string>& wanted, const std::string& kind) {
   std::vector<Named> all;

@@ -1,4 +1,4 @@
-// Which way of sampling a hard liquid in equilibrium gives most for the processor time?
+// Which method of sampling a hard liquid in equilibrium is the most efficient for its processor time?
 
 #include <algorithm>
 #include <array>
@@ -28,13 +28,13 @@ namespace {
 
 struct Effort {
   int particles = 1000;
-  double seconds = 10;  ///< of each method in each state
-  double motion_seconds =
-      150;  ///< of motion, with which others are compared, until it has forgotten a few times
-  double mixing = 8;               ///< seconds before
-  int few = 3, passages = 30;      ///< a few, and enough of them
-  std::size_t states = 100;        ///< of each liquid, at most
-  int stretches = 40, sweeps = 3;  ///< timed, and in each of them
+  double seconds = 10;  ///< for each method in each state
+  /// Limit for motion, with which others are compared, until it has forgotten a few times.
+  double motion_seconds = 150;
+  double mixing = 8;               ///< processor time of mixing before the measurement
+  int few = 3, passages = 30;      ///< a few passages, and enough of them
+  std::size_t states = 100;        ///< largest number for each liquid
+  int stretches = 40, sweeps = 3;  ///< number of timed stretches, and sweeps in each
   int tiles = 10;
 };
 
@@ -67,7 +67,7 @@ Species equal_particles(double aspect_ratio) {
   return species;
 }
 
-/// Sizes ∝ σ⁻³ between 0.45 and 1 of the largest, 23 % polydispersity (ghimenti2024).
+/// Sizes that are distributed ∝ σ⁻³ between 0.45 and 1 of the largest, with 23 % polydispersity (ghimenti2024).
 Species of_many_sizes(double aspect_ratio) {
   Species species = equal_particles(aspect_ratio);
   species.size = Distribution{
@@ -101,7 +101,7 @@ void require_no_overlap(const auto& method) {
 
 // ---- the error of Z ---------------------------------------------------------------------------------
 
-/// Z from blocks, and the processor time until its standard error is a thousandth.
+/// Measures Z by blocks, and the processor time until its standard error is a thousandth.
 template <int Dim>
 Json pressure_row(SamplingMethod<Dim>& method, const Effort& effort) {
   constexpr int blocks = 256;
@@ -137,8 +137,8 @@ SamplingMethods<Dim> plain_methods(const Configuration<Dim>& start) {
   return methods;
 }
 
-/// Calls measure(state, add) for a liquid at each of these packing fractions, where add(row) completes a row and keeps
-/// it.
+/// Calls measure(state, add) for a liquid at each of these packing fractions. add(row) completes a row and adds it to
+/// `rows`.
 template <int Dim, class Measure>
 void each_state(const StudyContext& context, const char* shape, double aspect_ratio,
                 std::initializer_list<double> packing_fractions, Json& rows, Measure&& measure) {
@@ -163,7 +163,7 @@ void add_pressures(const StudyContext& context, const char* shape, double aspect
                     for (const auto& method : plain_methods(c)) add(pressure_row(*method, effort));
                     ConstantPressure<Dim> compressed(c, rows.back()["z"].template get<double>());
                     Effort longer = effort;
-                    longer.seconds *= 6;  // volumes change slowly
+                    longer.seconds *= 6;  // because volumes change slowly
                     add(pressure_row(compressed, longer));
                   });
 }
@@ -180,8 +180,8 @@ Json measure_pressure(const StudyContext& context) {
 
 // ---- the error of S(q) --------------------------------------------------------------------------------
 
-/// Processor time until the standard error of S(q) is a hundredth, in the first shell and in that of the main peak,
-/// without the time to compute S(q).
+/// Measures the processor time until the standard error of S(q) is a hundredth, in the first shell and in the shell
+/// of the main peak. The time to compute S(q) does not count.
 template <int Dim>
 Json structure_row(SamplingMethod<Dim>& method, const Effort& effort) {
   constexpr int blocks = 20, samples = 10;
@@ -271,7 +271,7 @@ SamplingMethods<Dim> all_methods(const Configuration<Dim>& start) {
   return all;
 }
 
-/// Processor time until each quantity was forgotten, again and again.
+/// Measures repeatedly the processor time until each quantity is forgotten.
 template <int Dim>
 class Passages {
  public:
@@ -300,7 +300,8 @@ class Passages {
   bool has_forgotten() const { return passages_ > 0; }
 
  private:
-  /// Until everything is forgotten or the time is up. Compares at times that increase by a tenth.
+  /// Runs until everything is forgotten or the time is up. Comparisons are made after numbers of sweeps that grow by
+  /// a tenth.
   void pass() {
     method_.write();
     constexpr double goal = 1 / std::numbers::e;
@@ -335,14 +336,14 @@ class Passages {
 
   SamplingMethod<Dim>& method_;
   const Effort& effort_;
-  double longest_;  // in seconds
+  double longest_;  // limit in seconds
   double seconds_ = 0;
   int passages_ = 0;
   std::array<std::vector<double>, quantities> times_;
 };
 
-/// Denser and denser states of one liquid, each mixed by collective exchanges before it is measured. A method that has
-/// not forgotten one of them is left out of the next ones.
+/// Measures increasingly dense states of one liquid, each of which is first mixed by collective exchanges. A method
+/// that has not forgotten one of them is left out for the denser ones.
 template <int Dim>
 void add_liquid(const StudyContext& context, const char* liquid, double aspect_ratio,
                 const std::vector<double>& packing_fractions, Json& rows) {

@@ -16,7 +16,7 @@
 #include "mc/sampler.h"
 
 /// @file
-/// Ways to sample a hard liquid in equilibrium at constant volume, each with a state of its own.
+/// Methods that sample a hard liquid in equilibrium at constant volume. Each has a state of its own.
 namespace vitrel::bench {
 
 inline double share_of(std::uint64_t part, std::uint64_t all) {
@@ -30,9 +30,9 @@ struct SamplingMethod {
   virtual ~SamplingMethod() = default;
   virtual void sweep() = 0;
   virtual void tune() {}
-  /// Brings `state` up to date.
+  /// Brings `state` up to date with the method.
   virtual void write() {}
-  /// βP/ρ since the last call, by what the method knows.
+  /// βP/ρ since the last call, from the quantities that the method computes anyway.
   virtual double compressibility() = 0;
   virtual ExchangeCounts exchanges() const { return {}; }
 
@@ -40,7 +40,7 @@ struct SamplingMethod {
   Configuration<Dim> state;
 };
 
-/// Z by the contact function, measured every few sweeps.
+/// Local moves, with Z from the contact function, which is measured every few sweeps.
 template <int Dim>
 struct LocalMoves : SamplingMethod<Dim> {
   LocalMoves(std::string what, const Configuration<Dim>& start,
@@ -68,7 +68,7 @@ struct LocalMoves : SamplingMethod<Dim> {
   int sweeps = 0;
 };
 
-/// Z by the contacts of the chains.
+/// Event chains, with Z from their contacts.
 template <int Dim>
 struct Chains : SamplingMethod<Dim> {
   Chains(std::string what, const Configuration<Dim>& start, const ExchangeOptions& exchanges = {})
@@ -88,7 +88,7 @@ struct Chains : SamplingMethod<Dim> {
   ChainCounts before;
 };
 
-/// Newton's laws, in steps of about as many collisions as there are particles. Z by the virial.
+/// Newton's dynamics, in steps of about as many collisions as there are particles, with Z from the virial.
 template <int Dim>
 struct Motion : SamplingMethod<Dim> {
   explicit Motion(const Configuration<Dim>& start)
@@ -100,7 +100,7 @@ struct Motion : SamplingMethod<Dim> {
     return this->state;
   }
   void sweep() override {
-    constexpr double step = 0.01;  // far less than it takes to forget anything
+    constexpr double step = 0.01;  // far shorter than any correlation
     const std::uint64_t goal = counters.collisions + this->state.size();
     while (counters.collisions < goal) {
       time += step;
@@ -124,9 +124,9 @@ struct Motion : SamplingMethod<Dim> {
   double virial = 0, begin = time;
 };
 
-/// Local moves at the constant pressure that belongs to a known Z. The mean packing fraction gives βP/ρ at that of
-/// the start: if Z^(−1/D) is linear in φ, as nearly in scaled-particle theory, then d ln P/d ln φ = D Z^(1/D) − D + 1,
-/// which holds for disks within 2 %, for spheres within 15 %.
+/// Local moves at the constant pressure that belongs to a known Z. The mean packing fraction gives βP/ρ at the
+/// packing fraction of the start: if Z^(−1/D) is linear in φ, as it nearly is in scaled-particle theory, then d ln
+/// P/d ln φ = D Z^(1/D) − D + 1, which holds for disks within 2 % and for spheres within 15 %.
 template <int Dim>
 struct ConstantPressure : SamplingMethod<Dim> {
   ConstantPressure(const Configuration<Dim>& start, double known_z)
@@ -149,7 +149,8 @@ struct ConstantPressure : SamplingMethod<Dim> {
 
   double z, volume;
   PressureSampler<ParticleShape<Dim>> sampler;
-  double excess = 0, sweeps = 0;  ///< of the density, added up since the last call; how many
+  /// Sum of the relative excess of the density since the last call, and the number of sweeps in it.
+  double excess = 0, sweeps = 0;
 };
 
 template <int Dim>

@@ -6,7 +6,7 @@
 
 namespace vitrel::bench {
 
-/// A new folder for temporary files, removed with all that is in it.
+/// A new folder for temporary files. It is removed with all its contents.
 struct ScratchFolder : AtomicFile {
   ScratchFolder()
       : AtomicFile(std::filesystem::temp_directory_path() / "vitrel-bench", make_partial_folder) {}

@@ -4,7 +4,7 @@
 
 namespace vitrel::bench {
 
-/// Compares tables of coefficients with the integration; a part of soft_contact_study.
+/// Compares tables of coefficients with the integration. It is a part of soft_contact_study.
 Part restitution_part();
 
 }  // namespace vitrel::bench

@@ -28,13 +28,13 @@ namespace vitrel::bench {
 namespace {
 
 struct Effort {
-  Shift<3> sites = {20, 20, 25};  // of the crystal that runs start from
-  double relaxation = 5;          // collisions of each particle
+  Shift<3> sites = {20, 20, 25};  // of the crystal from which runs start
+  double relaxation = 5;          // number of collisions of each particle
   Shift<3> few_sites = {10, 10, 10};
   std::vector<double> steps_per_contact = {10, 30, 100, 300, 1000};
-  double timed = 1;  // seconds of a run that is repeated
+  double timed = 1;  // seconds over which a run is repeated
   int repeats = 5;
-  double stretch = 0.5;  // seconds of a repeat, at least
+  double stretch = 0.5;  // seconds that a repeat takes at least
 };
 const Effort quick{{5, 5, 5}, 1, {4, 4, 4}, {10}, 0.01, 2, 0.01};
 
@@ -44,7 +44,8 @@ Effort effort_of(const StudyContext& context) {
 
 // ---- the gas of the source's figure 7 -------------------------------------------------------------------
 
-constexpr double radius = 0.1, density = 1140, thermal_speed = 2;  // m, kg/m³, m/s; √(2 kT/m)
+// Units are m, kg/m³ and m/s; the thermal speed is √(2 kT/m).
+constexpr double radius = 0.1, density = 1140, thermal_speed = 2;
 constexpr double poissons_ratio = 0.4, usual_modulus = 1e9, dilute = 1e-3;
 const double mass = density * 4 * std::numbers::pi / 3 * radius * radius * radius;
 const ContactPair pair = contact_pair(radius, mass, radius, mass);
@@ -68,7 +69,7 @@ Configuration3 crystal(const Shift<3>& sites, double packing_fraction, std::uint
   return c;
 }
 
-/// The mean time of one particle between collisions, roughly (Boltzmann): 1/(√2 n π σ² ⟨v⟩).
+/// The approximate mean time between collisions of one particle (Boltzmann): 1/(√2 n π σ² ⟨v⟩).
 double mean_free_time(const Configuration3& c) {
   const double mean_speed = 2 * thermal_speed / std::sqrt(std::numbers::pi);
   const double cross_section = std::numbers::pi * 4 * radius * radius;
@@ -82,7 +83,7 @@ void run_on(RunState3& state, const EngineOptions& options, double end_time) {
   run(state, {options}, plan, {});
 }
 
-/// The crystal melted by hard collisions.
+/// A gas made from the crystal by collisions of hard spheres.
 Configuration3 gas(const Shift<3>& sites, double packing_fraction, double collisions,
                    std::uint64_t seed) {
   RunState3 state = begin_run(crystal(sites, packing_fraction, seed), 0);
@@ -106,7 +107,7 @@ EngineOptions integrated(const Force& force) {
 
 template <class Force>
 RestitutionTable table_of(const Force& force, double tolerance = 1e-8) {
-  constexpr ValueRange usual_speeds{1e-3, 25};  // m/s
+  constexpr ValueRange usual_speeds{1e-3, 25};  // in m/s
   constexpr double min_width = 0.02;
   return {form_of<Force>(),
           restitution_domain(force, std::span(&pair, 1), usual_speeds.low, usual_speeds.high),
@@ -123,7 +124,7 @@ EngineOptions tabulated(const Force& force, double tolerance = 1e-8) {
 
 const Viscoelastic granular{usual_modulus, poissons_ratio, 4e-5};
 
-/// The classical rule: at once, along the line of centres, with the coefficient of restitution of a head-on
+/// The classical rule, which acts at once along the line of centres, with the coefficient of restitution of a head-on
 /// impact of this normal speed.
 class ClassicalRestitution {
  public:
@@ -140,10 +141,10 @@ class ClassicalRestitution {
   TabulatedRestitution head_on_;
 };
 
-/// A granular gas for one mean free time, and where its particles really are then.
+/// A granular gas before and after one mean free time, with the accurate final state.
 struct Race {
   Configuration3 start, exact;
-  double duration, contact;  ///< s; of a head-on contact at the thermal speed
+  double duration, contact;  ///< in s; `contact` is that of a head-on contact at the thermal speed
 };
 
 Configuration3 clusterwise(const Race& race, double tolerance) {
@@ -163,7 +164,7 @@ Race race(const Effort& effort) {
   return race;
 }
 
-/// A row with the deviation of the particles that have collided, in radii.
+/// A row with the deviations of the particles that have collided, in radii.
 Json result_json(const Race& race, const std::string& way, double seconds,
                  const Configuration3& found) {
   std::vector<double> errors;
@@ -182,7 +183,7 @@ Json result_json(const Race& race, const std::string& way, double seconds,
           {"largest", errors.back()}};
 }
 
-/// Again and again from the same start, with everything that takes; the best time.
+/// Repeats the run from the same start, including its setup, and takes the best time.
 Json event_driven(const Race& race, const char* name, const EngineOptions& options,
                   const Effort& effort) {
   constexpr int runs = 10;

@@ -9,56 +9,56 @@
 #include "core/state/stage.h"
 
 /// @file
-/// The one form in which everything that is compared is declared. A study asks a question. Its parts measure rows: in
-/// each, one method answers the cases of one class, and its cost and its error come from the same run. The runner
-/// (runner.h) makes of any study the same JSON, tables and page.
+/// The common form in which all comparisons are declared. A study asks a question. Its parts measure rows: in each
+/// row, one method answers the cases of one class, and its cost and its error come from the same run. The runner
+/// (runner.h) makes the same kind of JSON, tables and page from every study.
 namespace vitrel::bench {
 
-/// How the numbers of a column are shown.
+/// The form in which the numbers of a column are shown.
 enum class Shown { text, count, number, all_digits, time, error, share };
 
-/// A key of the rows. Times are in ns. The key of the method is "method"; rows may name their curve in the chart as
-/// "curve".
+/// A key of the rows. Times are in ns. The key of the method is "method". Rows may name their curve in the chart
+/// under the key "curve".
 struct Column {
   std::string key;
-  std::string name = {};  ///< empty: the key
+  std::string name = {};  ///< the key if empty
   Shown shown = Shown::number;
   std::string unit = {};
 };
 
-/// What may be asked for. A study has the options that its defaults set.
+/// Options of a study. It has only those options that its defaults set.
 struct StudyOptions {
-  std::vector<std::string> parts = {}, methods = {}, classes = {};  ///< by name; empty: all
-  std::uint64_t pairs = 0;                                          ///< of each class
-  double seconds = 0;                                               ///< that a method may take
+  std::vector<std::string> parts = {}, methods = {}, classes = {};  ///< names; all if empty
+  std::uint64_t pairs = 0;                                          ///< in each class
+  double seconds = 0;                                               ///< for each method
   double duration = 0;                                              ///< simulated time
-  double tolerance = 0, gap_tolerance = 0;  ///< what still counts as right; 0: as usual
+  double tolerance = 0, gap_tolerance = 0;  ///< largest error of a right answer; the usual one if 0
   std::uint64_t seed = 1;
-  bool quick = false;  ///< few particles, short runs: to see that it works
+  bool quick = false;  ///< few particles and short runs, as a test
 };
 
-/// What a part measures with.
+/// The surroundings of a measurement.
 struct StudyContext {
   const StudyOptions& options;
   const RunControl& control;
-  Json& more;  ///< what only the page of this study shows
+  Json& more;  ///< numbers for the page of this study only
 };
 
 struct Part {
   std::string name;
-  std::string about;  ///< the cases, and what the error is, in one or two sentences
-  std::function<Json(const StudyContext&)> measure;  ///< the rows
-  std::vector<Column> cases;     ///< what names a class of cases; a panel of the chart is of one
-  Column cost = {}, error = {};  ///< the axes of the chart; no key: there is none
+  std::string about;  ///< the cases, and the meaning of the error, in one or two sentences
+  std::function<Json(const StudyContext&)> measure;  ///< returns the rows
+  std::vector<Column> cases;  ///< keys that name a class of cases; the chart has a panel per class
+  Column cost = {}, error = {};       ///< the axes of the chart; an axis without a key is left out
   std::vector<Column> verdicts = {};  ///< numbers of wrong answers of each kind, among `pairs`
   std::vector<Column> others = {};
-  std::string varied = {};  ///< the key of what is varied within a method
-  /// From which to choose, if anything.
+  std::string varied = {};  ///< the key of the quantity that is varied within a method
+  /// The names of methods and classes from which the user can choose, if any.
   std::vector<std::string> method_names = {}, class_names = {};
-  double smallest_error = 0;  ///< less is drawn there
+  double smallest_error = 0;  ///< smaller errors are drawn at this value
 };
 
-/// Another name of a study, or of some parts of it.
+/// Another name for a study, or for some of its parts.
 struct Alias {
   std::string name;
   std::vector<std::string> parts = {};
@@ -70,11 +70,11 @@ struct Study {
   std::string question;
   std::vector<Part> parts;
   StudyOptions defaults = {};
-  bool has_tolerance = false, has_quick = true;  ///< options
-  std::vector<std::string> settled = {};         ///< questions answered for good, with the commit
+  bool has_tolerance = false, has_quick = true;  ///< whether the study has these options
+  std::vector<std::string> settled = {};  ///< questions that are answered for good, with the commit
 };
 
-/// All of them.
+/// All studies.
 const std::vector<Study>& studies();
 
 Study overlap_study();

@@ -51,7 +51,7 @@ std::string heading_of(const Column& column) {
   return name_of(column) + (column.unit.empty() ? "" : " (" + column.unit + ")");
 }
 
-/// "generic, κ = 2"
+/// The name of the case of a row, such as "generic, κ = 2".
 std::string case_name(const Part& part, const Json& row) {
   std::string name;
   for (const Column& column : part.cases) {
@@ -63,12 +63,12 @@ std::string case_name(const Part& part, const Json& row) {
   return name;
 }
 
-/// Methods can be compared row by row if none of them buys a smaller error by what it varies.
+/// Methods can be compared row by row unless they gain accuracy by what is varied.
 bool is_comparable(const Part& part) {
   return part.varied.empty() || part.error.key.empty();
 }
 
-/// "generic, κ = 2, particles = 100"
+/// The name by which rows are compared, such as "generic, κ = 2, particles = 100".
 std::string compared_name(const Part& part, const Json& row) {
   const std::string name = case_name(part, row);
   if (part.varied.empty()) return name;
@@ -83,7 +83,7 @@ std::string curve_of(const Json& row) {
   return row.value("curve", method_of(row));
 }
 
-/// The different ones, in the order of the rows.
+/// The distinct names, in the order of the rows.
 template <class Name>
 std::vector<std::string> distinct(const Json& rows, Name&& name) {
   std::vector<std::string> all;
@@ -105,12 +105,12 @@ double wrong(const Part& part, const Json& row) {
   return sum;
 }
 
-/// A method that answers not one pair of a class is not made for it.
+/// Whether the method answers any pair of the class; if not, it is not made for such pairs.
 bool applies(const Json& row) {
   return !(number_at(row, "not_converged") >= number_at(row, "pairs"));
 }
 
-/// Rows of a case and of methods against each other; cell(row, row of the first method).
+/// A table of cases against methods. make_cell receives the row, and the row of the first method in the same case.
 template <class MakeCell>
 StudyTable matrix(const Part& part, const Json& rows, Content content, const std::string& heading,
                   MakeCell&& make_cell) {
@@ -199,7 +199,8 @@ Point point_of(const Part& part, const Json& row) {
   return point;
 }
 
-/// A thin line through the points, filled or hollow; `k` is the number of the colour.
+/// Adds a thin line through the points, which are filled, or hollow if some answers are wrong. `k` is the index of
+/// the colour.
 void add_curves(Json& curves, const std::string& name, int k, const std::vector<Point>& points) {
   const auto add = [&](const std::string& label, const char* look, auto&& chosen) {
     Json curve = {{"label", label}, {"id", name}, {"k", k}, {"look", look}};
@@ -235,7 +236,7 @@ struct Range {
 struct Summary {
   double pairs = 0, wrong = 0, worst = 0;
   std::string worst_case;
-  Range cost, error;  ///< the cost relative to the first method
+  Range cost, error;  ///< `cost` is relative to the first method
 };
 
 Summary summary_of(const Part& part, const Json& rows, const std::string& method) {

@@ -6,12 +6,12 @@
 #include "bench/studies/study.h"
 
 /// @file
-/// What the rows of a part say: tables, charts and a sentence, the same for every study.
+/// The presentation of the rows of a part: tables, charts and a sentence, in the same form for every study.
 namespace vitrel::bench {
 
 struct Cell {
   std::string text;
-  std::string note = {};  ///< that HTML pages show beside it
+  std::string note = {};  ///< shown beside the text in HTML
   double wrong = 0;       ///< share of wrong answers
 };
 
@@ -24,27 +24,28 @@ struct StudyTable {
   std::vector<std::vector<Cell>> rows;
 };
 
-/// Where which method gives how many wrong answers, in percent; the cost of each relative to the first, if nothing is
-/// varied; and all rows. "–": the method does not apply, as it answers not one of the cases. "·": none.
+/// Tables of the percentage of wrong answers by case and method; of the cost of each method relative to the first, if
+/// nothing is varied; and of all rows. "–" means that the method does not apply, as it answers none of the cases, and
+/// "·" that no answer is wrong.
 std::vector<StudyTable> tables_of(const Part& part, const Json& rows);
 
-/// Cost against error, a panel for each class of cases and a curve for each method; cost against what is varied, if
-/// there is no error. As charts.js of the report page draws them, without colours.
+/// Charts of cost against error, with a panel for each class of cases and a curve for each method; cost against the
+/// varied quantity if there is no error. They have the form that charts.js of the report page draws, without colours.
 Json charts_of(const Part& part, const Json& rows);
 
-/// One sentence on the methods, from the numbers.
+/// A sentence about the methods, made from the numbers.
 std::string answer_of(const Part& part, const Json& rows);
 
 std::string markdown(const StudyTable& table);
 Json table_json(const StudyTable& table);
 
-/// "213 ns", "12.3 µs", "1.23 ms".
+/// A time in words: "213 ns", "12.3 µs" or "1.23 ms".
 std::string time_text(double nanoseconds);
-/// "3.1e-14"; "–" if it is not a number.
+/// An error in words: "3.1e-14", or "–" if it is not a number.
 std::string error_text(double error);
-/// Three digits, more for large ones: "0.0255", "41.6", "1412".
+/// A ratio with three digits, or more if it is large: "0.0255", "41.6", "1412".
 std::string ratio_text(double ratio);
-/// In percent; "·" for 0, and nothing else is shown as 0.
+/// A share in percent. Only an exact 0 appears as "·"; no other share is rounded to 0.
 std::string share_text(double share);
 
 }  // namespace vitrel::bench

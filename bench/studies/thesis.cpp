@@ -23,8 +23,8 @@ const char* dynamics_name(double tau) {
   return tau > 0 ? "Brownian" : "Newtonian";
 }
 
-/// Small systems run longer, so that all have as much to do; a run of the program of the thesis ends after some
-/// seconds.
+/// Small systems run longer, so that all systems do a similar amount of work. A run of the program of the thesis ends
+/// after a number of seconds.
 Json row_of(const StudyContext& context, Program program, const ThesisScene& scene, double tau,
             const Configuration2& start) {
   RunLimits limits{context.options.duration, 1e9, tau, context.options.seed};
@@ -48,7 +48,7 @@ Json row_of(const StudyContext& context, Program program, const ThesisScene& sce
   return row;
 }
 
-/// Figures 4.1 to 4.4.
+/// Measures figures 4.1 to 4.4 of the thesis.
 Json measure_sizes(const StudyContext& context) {
   const int largest = context.options.quick ? 25 : largest_size;
   Json rows = Json::array();

@@ -1,4 +1,4 @@
-// Which contact time carries a whole run?
+// Which contact-time method can carry a whole run?
 
 #include <algorithm>
 #include <array>

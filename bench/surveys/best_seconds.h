@@ -6,7 +6,7 @@
 
 namespace vitrel::bench {
 
-/// How long work() takes, by the clock on the wall.
+/// The time that work() takes on the wall clock.
 template <class Work>
 double seconds_of(Work&& work) {
   const auto start = std::chrono::steady_clock::now();

@@ -7,7 +7,7 @@
 #include "core/random/stream.h"
 
 /// @file
-/// What the cases of a class are drawn from.
+/// Random numbers from which the cases of a class are drawn.
 namespace vitrel::bench {
 
 inline double sign(Stream& draw) {
@@ -16,7 +16,7 @@ inline double sign(Stream& draw) {
 inline double log_uniform(Stream& draw, double low, double high) {
   return low * std::pow(high / low, draw.uniform());
 }
-/// A number of either sign, whose magnitude is even in its logarithm.
+/// A number of random sign whose magnitude is uniform in its logarithm.
 inline double signed_log_uniform(Stream& draw, double low, double high) {
   const double of_sign = sign(draw);
   return of_sign * log_uniform(draw, low, high);
@@ -26,7 +26,7 @@ inline Vec2 unit(double angle) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-/// kT = 1 and mass 1.
+/// A velocity at kT = 1 for mass 1.
 template <int Dim>
 Vec<Dim> thermal_vector(Stream& draw) {
   Vec<Dim> v;
@@ -52,7 +52,7 @@ Vec<Dim> any_direction(Stream& draw) {
     return thermal_vector<3>(draw).normalized();
 }
 
-/// A body of unit a b (c).
+/// A random body with unit a b (c).
 template <int Dim>
 auto any_shape(Stream& draw, double kappa) {
   if constexpr (Dim == 2) {

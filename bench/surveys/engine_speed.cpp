@@ -20,7 +20,7 @@
 namespace vitrel::bench {
 namespace {
 
-// A permutation of 0 … n − 1.
+// Returns a random permutation of 0 … n − 1.
 std::vector<std::size_t> random_order(std::size_t n) {
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});

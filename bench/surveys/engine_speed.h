@@ -9,10 +9,10 @@
 #include "edmd/engine.h"
 
 /// @file
-/// How fast engines are: states to run from, and the clock.
+/// The speed of engines: states from which they run, and the clock.
 namespace vitrel::bench {
 
-/// Throws InvariantError if a state to measure was not reached.
+/// Throws InvariantError if a state to be measured was not reached.
 void must_reach(const StageReport& report);
 
 /// N equal particles with a b = 1 and mass 1 in a square box.
@@ -23,27 +23,27 @@ struct FluidScene {
   std::uint64_t seed = 1;
 };
 
-/// Inserted at random places and angles at φ = 0.2, swollen to the packing fraction, and mixed by 500
-/// sweeps of Monte Carlo; velocities at kT = 1. A liquid, not a melted crystal.
+/// A liquid, not a melted crystal: particles are inserted with random places and angles at φ = 0.2, swollen to the
+/// packing fraction, and mixed by 500 sweeps of Monte Carlo. Velocities are drawn at kT = 1.
 Configuration2 fluid(const FluidScene& scene);
 
-/// The same of N ellipses or ellipsoids of mass 1, in space from φ = 0.1.
+/// A liquid made in the same way from N ellipses or ellipsoids of mass 1; in space insertion is at φ = 0.1.
 template <class Shape>
 Configuration<Shape::dimension> liquid(const Shape& shape, int particles, double packing_fraction,
                                        std::uint64_t seed = 1);
 
-/// N disks or spheres of radius 1, inserted at random, with velocities at kT = 1.
+/// N disks or spheres of radius 1 that are inserted at random, with velocities at kT = 1.
 template <int Dim>
 Configuration<Dim> gas(int particles, double packing_fraction, std::uint64_t seed = 1);
 
-/// Columns × rows copies of a configuration, the particles numbered at random, with velocities of
-/// their own. No more a periodic one after some collisions of each.
+/// Columns × rows copies of a configuration, with particles numbered at random and with velocities of their own.
+/// After some collisions per particle it is no longer periodic.
 Configuration2 tiled(const Configuration2& tile, int columns, int rows);
 
-/// The processor time of this process, so that others do not count.
+/// The processor time of this process, in which other processes do not count.
 double processor_seconds();
 
-/// What some work of an engine took.
+/// The work that an engine did.
 struct Work {
   double seconds = 0;
   double simulated_time = 0;
@@ -54,15 +54,13 @@ struct Work {
   }
 };
 
-/// An engine at work, for as long as one wants. The time is that of this process, so that others do
-/// not count.
+/// An engine that runs for as long as needed. The time is that of this process, so that other processes do not count.
 template <int Dim>
 class TimedRun {
  public:
   TimedRun(std::unique_ptr<Engine<Dim>> engine, Configuration<Dim> start);
 
-  /// Whole blocks, with what their beginning and end takes; at least one, and as many as take so
-  /// many seconds.
+  /// Runs whole blocks, including their beginning and end: at least one, and enough to take `min_seconds`.
   Work blocks(double min_seconds);
 
   const Configuration<Dim>& now() const { return now_; }
@@ -72,7 +70,7 @@ class TimedRun {
   Configuration<Dim> now_;
 };
 
-/// Bytes that this process has allocated now.
+/// The number of bytes that this process has allocated at present.
 std::size_t allocated_bytes();
 
 }  // namespace vitrel::bench

@@ -44,7 +44,7 @@ std::string body_words(const Flight<GrowingEllipse>& flight) {
       motion.velocity.y(), motion.angular_velocity);
 }
 
-/// Empty if a body grows, which `vitrel pair path` does not know.
+/// The command that draws the pair; empty if a body grows, which `vitrel pair path` does not support.
 std::string command(const CollisionCase& asked) {
   if (asked.one.body.growth_rate != 0 || asked.two.body.growth_rate != 0) return "";
   return fmt::format("vitrel pair path{}{} --until {} -o pair.html", body_words(asked.one),

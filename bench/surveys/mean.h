@@ -7,7 +7,7 @@
 namespace vitrel::bench {
 
 struct Mean {
-  double value, error;  ///< the error of independent values
+  double value, error;  ///< error holds for independent values
 };
 
 inline Mean mean_of(const std::vector<double>& values) {

@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::size_t particles = 256;
 constexpr double packing_fraction = 0.7;
-constexpr std::uint64_t collisions_before = 50 * particles / 2;  // two particles have part in each
+// 50 collisions per particle; each collision involves two particles.
+constexpr std::uint64_t collisions_before = 50 * particles / 2;
 
 Configuration2 prepared(double aspect_ratio, std::uint64_t seed) {
   Configuration2 c;
@@ -49,7 +50,7 @@ Configuration2 running(double aspect_ratio, std::uint64_t seed) {
   return c;
 }
 
-/// One run and what it asked so far.
+/// One run and the predictions that it has requested so far.
 class Recording {
  public:
   explicit Recording(double aspect_ratio) : aspect_ratio_(aspect_ratio) {}
@@ -61,7 +62,7 @@ class Recording {
       cases_.clear();
       seed_ = seed;
     }
-    // Recorded anew from the start whenever there are too few: the same ones again, and more.
+    // If there are too few cases, all are recorded again from the start: the same ones, followed by more.
     constexpr std::uint64_t least = 8192;
     if (index >= cases_.size())
       cases_ = recorded_cases(start_, std::max(least, std::bit_ceil(index + 1)));

@@ -27,7 +27,7 @@ Vec3 thermal_turning(Stream& draw, const Ellipsoid& shape, const Quaternion& ori
   return orientation * thermal_vector<3>(draw).cwiseQuotient(shape.inertia_per_mass().cwiseSqrt());
 }
 
-/// A body of constant size at the origin with thermal velocities, oriented at random.
+/// A body of constant size at the origin with thermal velocities and a random orientation.
 template <class Shape>
 Flight<Growing<Shape>> thermal(Stream& draw, const Shape& shape) {
   constexpr int dim = Shape::dimension;
@@ -55,7 +55,7 @@ CollisionCase pair_of(Stream& draw, const Ellipse& e1, const Ellipse& e2) {
   return {one, thermal(draw, e2), usual_horizon};
 }
 
-/// Lets both bodies grow or shrink, three in ten from a point.
+/// Lets both bodies grow or shrink. A body starts as a point with a probability of 0.3.
 template <int Dim>
 void let_grow(Stream& draw, CollisionCaseOf<Dim>& pair) {
   for (GrowingBody<Dim>* body : {&pair.one.body, &pair.two.body}) {
@@ -79,8 +79,8 @@ bool disjoint_at_samples(const CollisionCaseOf<Dim>& pair, double until, int sam
   return true;
 }
 
-/// Puts the second body around the first until the two are disjoint: the distance of the centres uniform between
-/// nearest and farthest times a₁ + a₂, every direction.
+/// Places the second body near the first until the two are disjoint. The direction is random, and the distance of the
+/// centres is uniform between `nearest` and `farthest` times a₁ + a₂.
 template <int Dim>
 CollisionCaseOf<Dim> placed_apart(Stream& draw, CollisionCaseOf<Dim> pair, double nearest,
                                   double farthest) {
@@ -96,7 +96,8 @@ CollisionCaseOf<Dim> close_pair(Stream& draw, const CollisionCaseOf<Dim>& pair) 
   return placed_apart(draw, pair, 0.2, 1.2);
 }
 
-/// The surface point of a body of size 1 whose outward normal is n, and how fast its support advances by rotation.
+/// The surface point of a body of size 1 whose outward normal is n, and the speed at which rotation moves its support
+/// along n.
 template <int Dim>
 struct Support {
   Vec<Dim> point;
@@ -109,7 +110,7 @@ Support<3> support(const Moving<3>& flight, const Vec3& n) {
   return {point, -point.dot(flight.motion.angular_velocity.cross(n))};
 }
 
-/// The same in the plane, where h'' + h is the radius of curvature.
+/// Support in the plane, with h'' (`second`) and the radius of curvature h'' + h.
 struct BentSupport : Support<2> {
   double second, curvature;
 };
@@ -124,9 +125,9 @@ BentSupport support(const Moving<2>& flight, const Vec2& n) {
           curvature};
 }
 
-/// How two bodies stand and move when their surfaces are closest, `gap` apart along n, with this approach
-/// speed: shifts the second body and corrects its velocity along n. Tangent surfaces at a distance along their common
-/// normal are closest there, because both are convex.
+/// Gives two bodies the positions and velocities with which their surfaces are closest, `gap` apart along n, and
+/// approach at this speed. It shifts the second body and corrects its velocity along n. Tangent surfaces that are
+/// apart along their common normal are closest there, because both are convex.
 template <int Dim>
 void bring_together(CollisionCaseOf<Dim>& pair, const Vec<Dim>& n, double gap, double approach) {
   const auto s1 = support(pair.one, n), s2 = support(pair.two, n);
@@ -146,21 +147,21 @@ double gap_acceleration(const CollisionCase& pair, const Vec2& n) {
          sideways * sideways / (s1.curvature + s2.curvature);
 }
 
-/// By the second difference.
+/// The second time derivative of the gap by finite differences.
 double gap_acceleration(const EllipsoidCase& pair, const Vec3&) {
   constexpr double step = 1e-3;
   const auto gap = [&](double time) { return gap_at(pair, time); };
   return static_cast<double>((gap(step) - 2 * gap(0) + gap(-step)) / (step * step));
 }
 
-/// Lets what stands at time 0 happen at `time` instead.
+/// Moves the bodies back in time, so that their state at time 0 occurs at `time` instead.
 template <int Dim>
 void happen_at(CollisionCaseOf<Dim>& pair, double time) {
   for (Moving<Dim>* flight : {&pair.one, &pair.two})
     flight->pose = advanced(flight->pose, flight->motion, -time);
 }
 
-/// The same, also of pairs that tumble.
+/// Moves the bodies back in time, also if they tumble.
 void happen_at(EllipsoidCase& pair, double time) {
   if (!pair.tumbles()) return happen_at<3>(pair, time);
   for (const int body : {0, 1}) {
@@ -180,9 +181,9 @@ CollisionCaseOf<Dim> generic(Stream& draw, double kappa) {
   return close_pair(draw, pair);
 }
 
-/// The minimum gap within the horizon is between ±1e-12 and ±1e-3 shortest semi-axes; if it is negative, there are two
-/// close roots. A pair is chosen with the widest gap of the class, so that no sample stands in the overlap that is
-/// wanted; then the surfaces are brought to the gap wanted.
+/// The minimum gap within the horizon is between ±1e-12 and ±1e-3 shortest semi-axes. If it is negative, there are
+/// two close roots. A pair is first chosen with the widest gap of the class, so that no sample lies in the wanted
+/// overlap. The surfaces are then brought to the wanted gap.
 template <int Dim, bool tumble = false>
 CollisionCaseOf<Dim> grazing(Stream& draw, double kappa) {
   constexpr double widest = 1e-3;
@@ -207,7 +208,7 @@ CollisionCaseOf<Dim> grazing(Stream& draw, double kappa) {
   }
 }
 
-/// Angular velocities of 10 to 60, so that the gap has many minima within the horizon.
+/// Angular velocities are 10 to 60, so that the gap has many minima within the horizon.
 template <int Dim>
 CollisionCaseOf<Dim> fast_rotation(Stream& draw, double kappa) {
   CollisionCaseOf<Dim> pair = thermal_pair<Dim>(draw, kappa);
@@ -221,7 +222,8 @@ CollisionCaseOf<Dim> fast_rotation(Stream& draw, double kappa) {
   return placed_apart(draw, pair, 0.5, 1.4);
 }
 
-/// Initial gap of 1/4 to 5/4 of that of a declared contact, the surfaces approaching (sense 1) or separating (−1).
+/// The initial gap is 1/4 to 5/4 of the gap of a declared contact. The surfaces approach (sense 1) or separate (sense
+/// −1).
 template <int Dim, int sense>
 CollisionCaseOf<Dim> touching(Stream& draw, double kappa) {
   while (true) {
@@ -229,7 +231,7 @@ CollisionCaseOf<Dim> touching(Stream& draw, double kappa) {
     const double wanted = draw.uniform(0.25, 1.25) * pair.contact_gap();
     const double speed = std::abs(std::sqrt(2.0) * draw.normal());
     bring_together(pair, any_direction<Dim>(draw), wanted, sense * speed);
-    // What the stored doubles say.
+    // The gap is computed again from the stored doubles.
     const auto gap = static_cast<double>(gap_at(pair, 0));
     if (gap >= 0.25 * pair.contact_gap() && gap <= 1.25 * pair.contact_gap()) return pair;
   }
@@ -243,7 +245,7 @@ CollisionCaseOf<Dim> growth(Stream& draw, double kappa) {
   return placed_apart(draw, pair, 0.2, 1.4);
 }
 
-/// Aspect ratios log-uniform from 1 to 100, drawn for each body.
+/// Aspect ratios are log-uniform from 1 to 100 and drawn for each body.
 template <int Dim>
 CollisionCaseOf<Dim> aspect_ratios(Stream& draw, double largest) {
   const auto ratio = [&] { return log_uniform(draw, 1, largest); };
@@ -260,19 +262,19 @@ CollisionCaseOf<Dim> aspect_ratios(Stream& draw, double largest) {
 
 // ---- classes in the plane -----------------------------------------------------------------------------
 
-/// Size ratios log-uniform from 1 to 1000, aspect ratios from 1 to 100.
+/// Size ratios are log-uniform from 1 to 1000, aspect ratios from 1 to 100.
 CollisionCase sizes(Stream& draw, double largest) {
   const Ellipse one = of_unit_area(log_uniform(draw, 1, largest));
   const Ellipse shape = of_unit_area(log_uniform(draw, 1, largest));
   const double size = log_uniform(draw, 1e-3, 1);
   CollisionCase pair = pair_of(draw, one, scaled(shape, size));
-  // A small body turns as one of unit size would: fast rotation is a class of its own.
+  // A small body turns as fast as one of unit size would, because fast rotation is a class of its own.
   pair.two.motion.angular_velocity = thermal_turning(draw, shape, 0);
   return close_pair(draw, pair);
 }
 
-/// Crossed at the start with four intersections, so Ψ > 0 despite the overlap. (Ellipses of one area do not contain
-/// each other.)
+/// The bodies are crossed at the start with four intersections, so that Ψ > 0 despite the overlap. (Ellipses of the
+/// same area do not contain each other.)
 CollisionCase crossed_at_start(Stream& draw, double kappa) {
   while (true) {
     CollisionCase pair = thermal_pair<2>(draw, kappa);
@@ -283,7 +285,7 @@ CollisionCase crossed_at_start(Stream& draw, double kappa) {
   }
 }
 
-/// Relative and angular velocities of order 1e-8, gaps scaled accordingly.
+/// Relative and angular velocities are of order 1e-8, and gaps are scaled accordingly.
 CollisionCase slow(Stream& draw, double kappa) {
   constexpr double slowness = 1e-8;
   CollisionCase pair = thermal_pair<2>(draw, kappa);
@@ -295,7 +297,7 @@ CollisionCase slow(Stream& draw, double kappa) {
   const Vec2 n = any_direction<2>(draw);
   double approach = pair.one.motion.velocity.dot(n) - pair.two.motion.velocity.dot(n) +
                     support(pair.one, n).rate + support(pair.two, n).rate;
-  if (approach < 0) {  // played backwards it is the other sense
+  if (approach < 0) {  // in reversed time the surfaces approach
     for (Moving<2>* flight : {&pair.one, &pair.two})
       flight->motion = {-flight->motion.velocity, -flight->motion.angular_velocity};
     approach = -approach;
@@ -311,17 +313,17 @@ CollisionCase round_pair(Stream& draw, double excess) {
   const CollisionCase pair = pair_of(draw, {b1 * (1 + excess), b1}, {b2 * (1 + excess), b2});
   return close_pair(draw, pair);
 }
-/// Aspect ratios 1 + 1e-12.
+/// Aspect ratios are 1 + 1e-12.
 CollisionCase nearly_circular(Stream& draw, double /*kappa*/) {
   return round_pair(draw, 1e-12);
 }
-/// Circles represented as ellipses.
+/// Circles are represented as ellipses.
 CollisionCase round(Stream& draw, double /*kappa*/) {
   return round_pair(draw, 0);
 }
 
-/// A contact at a time before or after the horizon, with nothing before it at the samples; or an
-/// empty horizon if something is.
+/// A contact occurs before or after the horizon, and no sample before it overlaps. If a sample does, the horizon is
+/// 0.
 CollisionCase meeting(Stream& draw, CollisionCase pair, double normal_angle) {
   const double when = draw.uniform(0.05, 0.6);
   bring_together<2>(pair, unit(normal_angle), 0, draw.uniform(0.2, 3));
@@ -360,7 +362,7 @@ CollisionCase tip(Stream& draw, double kappa) {
   return pair;
 }
 
-/// Close pairs a million semi-major axes from the origin.
+/// Close pairs lie a million semi-major axes from the origin.
 CollisionCase large_coordinates(Stream& draw, double kappa) {
   const Vec2 far = 1e6 * of_unit_area(kappa).a * any_direction<2>(draw);
   CollisionCase pair = thermal_pair<2>(draw, kappa);
@@ -370,7 +372,7 @@ CollisionCase large_coordinates(Stream& draw, double kappa) {
 
 // ---- classes in space ---------------------------------------------------------------------------------
 
-/// As in the plane.
+/// Size and aspect ratios as in the class of the plane.
 EllipsoidCase sizes_of_solids(Stream& draw, double largest) {
   const auto body = [&] {
     const double kappa = log_uniform(draw, 1, largest);
@@ -382,7 +384,7 @@ EllipsoidCase sizes_of_solids(Stream& draw, double largest) {
   return close_pair(draw, pair);
 }
 
-/// Bodies of the same shape, parallel and rotating alike, as a body and its image: η₁ = 0 at all times.
+/// Bodies of the same shape are parallel and rotate alike, as a body and its image do, so that η₁ = 0 at all times.
 EllipsoidCase parallel_congruent(Stream& draw, double kappa) {
   EllipsoidCase pair = thermal_pair<3>(draw, kappa);
   pair.two.body = pair.one.body;
@@ -391,7 +393,7 @@ EllipsoidCase parallel_congruent(Stream& draw, double kappa) {
   return close_pair(draw, pair);
 }
 
-/// Only the rotation of scalene bodies differs: it is that of Euler's equations.
+/// These pairs differ from those of `draw_pair` only in that scalene bodies rotate by Euler's equations.
 template <EllipsoidCase (*draw_pair)(Stream&, double)>
 EllipsoidCase tumbling(Stream& draw, double kappa) {
   EllipsoidCase pair = draw_pair(draw, kappa);
@@ -399,14 +401,14 @@ EllipsoidCase tumbling(Stream& draw, double kappa) {
   return pair;
 }
 
-/// The axes in the order of their moments.
+/// The axes in ascending order of their moments.
 std::array<int, 3> by_moment(const Ellipsoid& shape) {
   std::array<int, 3> axes{0, 1, 2};
   std::ranges::sort(axes, std::greater<>{}, [&](int k) { return shape.semi_axes[k]; });
   return axes;
 }
 
-/// Both bodies scalene, with angular velocities along their own axes as drawn by `spin`.
+/// Both bodies are scalene. `spin` draws the angular velocities along their own axes.
 template <class Spin>
 EllipsoidCase scalene_pair(Stream& draw, double kappa, const Spin& spin) {
   EllipsoidCase pair = thermal_pair<3>(draw, kappa);
@@ -419,13 +421,13 @@ EllipsoidCase scalene_pair(Stream& draw, double kappa, const Spin& spin) {
   return close_pair(draw, pair);
 }
 
-/// How far from the uniform rotation or the separatrix, relative to the angular velocity.
+/// The deviation from uniform rotation or from the separatrix, relative to the angular velocity.
 double small_deviation(Stream& draw) {
   return signed_log_uniform(draw, 1e-12, 1e-1);
 }
 
-/// Angular velocities along a principal axis up to a relative deviation between 1e-12 and 0.1, the unstable axis as
-/// often as the others.
+/// Angular velocities are along a principal axis up to a relative deviation between 1e-12 and 0.1. The unstable axis
+/// is as frequent as the others.
 EllipsoidCase nearly_uniform(Stream& draw, double kappa) {
   return scalene_pair(draw, kappa, [&](const Ellipsoid& shape) -> Vec3 {
     const auto axis = static_cast<int>(draw.below(3));
@@ -437,7 +439,8 @@ EllipsoidCase nearly_uniform(Stream& draw, double kappa) {
   });
 }
 
-/// L² = 2EI₂ up to a relative deviation of ω₃ between 1e-12 and 0.1: I₃(I₃ − I₂) ω₃² = I₁(I₂ − I₁) ω₁², whatever ω₂.
+/// L² = 2EI₂ holds up to a relative deviation of ω₃ between 1e-12 and 0.1, which means I₃(I₃ − I₂) ω₃² = I₁(I₂ − I₁)
+/// ω₁² for any ω₂.
 EllipsoidCase near_separatrix(Stream& draw, double kappa) {
   return scalene_pair(draw, kappa, [&](const Ellipsoid& shape) -> Vec3 {
     const auto [one, two, three] = by_moment(shape);
@@ -453,7 +456,7 @@ EllipsoidCase near_separatrix(Stream& draw, double kappa) {
 
 // ---- the list -----------------------------------------------------------------------------------------
 
-/// FNV-1a, so that a class keeps its cases whatever classes stand beside it.
+/// The FNV-1a hash of name and aspect ratio, so that a class keeps its cases whatever other classes exist.
 std::uint64_t key_of(const std::string& name, double aspect_ratio) {
   std::uint64_t key = 0xcbf29ce484222325U;
   for (const char c : name + std::to_string(aspect_ratio)) {

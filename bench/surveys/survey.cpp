@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t first_block = 64, largest_block = 4096;
 
-/// work(k) for k = 0 … count − 1 on all processors: the reference takes far longer than the methods.
+/// Calls work(k) for k = 0 … count − 1 on all processors, because the reference takes far longer than the methods.
 void for_each_in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
   in_parallel(count, all_cores, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) work(k);
@@ -48,14 +48,14 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-/// How much a failure tells: a contact overlooked where the surfaces cross at speed says most.
+/// The gravity of a failure. It is greatest if a contact is overlooked although the surfaces cross fast.
 int gravity(const Assessment& failure) {
   if (failure.verdict == Verdict::not_converged) return 0;
   if (failure.degenerate) return 1;
   return failure.verdict == Verdict::late || failure.verdict == Verdict::missed ? 3 : 2;
 }
 
-/// One method at work on one class.
+/// The examination of one method on one class.
 template <int Dim>
 class Examination {
  public:
@@ -98,7 +98,7 @@ class Examination {
     answers_.resize(cases.size());
     timer_.run(cases.size(), [&] { answer_all(cases); });
   }
-  /// Not inlined: scripts/count_instructions counts its instructions.
+  /// It is not inlined, because scripts/count_instructions counts its instructions.
   [[gnu::noinline]] void answer_all(std::span<const CollisionCaseOf<Dim>> cases) {
     for (std::size_t k = 0; k < cases.size(); ++k) answers_[k] = method_->predict(cases[k]);
   }

@@ -13,8 +13,8 @@
 
 namespace vitrel::bench {
 
-/// A method and how long it may predict, all classes together; what it answers in that time is what
-/// its rows are about. Without a limit it answers every pair.
+/// A method, and the time that it may take for the predictions of all classes together. Its rows describe what it
+/// answers in that time. Without a limit it answers every pair.
 template <int Dim>
 struct CandidateOf {
   MethodOf<Dim> method;
@@ -25,39 +25,39 @@ template <int Dim>
 struct SurveyRequestOf {
   std::vector<CandidateOf<Dim>> candidates;
   std::vector<CaseClassOf<Dim>> classes;
-  std::uint64_t pairs = 1000;  ///< of each class
+  std::uint64_t pairs = 1000;  ///< in each class
   std::uint64_t seed = 1;
   AllowedError tolerance;
 };
 
-/// One method on one class. Errors are NaN if there is no pair to take them from.
+/// The results of one method on one class. Errors are NaN if no pair defines them.
 struct SurveyRow {
   std::string method;
-  double tolerance = 0;    ///< the method's own
-  std::string case_class;  ///< its name
+  double tolerance = 0;    ///< of the method
+  std::string case_class;  ///< name of the class
   double aspect_ratio = 0;
   std::uint64_t pairs = 0;
-  std::array<std::uint64_t, verdict_names.size()> verdicts{};  ///< how many pairs had which
+  /// The number of pairs with each verdict.
+  std::array<std::uint64_t, verdict_names.size()> verdicts{};
   std::uint64_t degenerate = 0;
-  std::uint64_t contacts = 0;  ///< pairs that truly touch within the horizon
+  std::uint64_t contacts = 0;  ///< pairs that really touch within the horizon
   double ns_per_call = 0;
-  /// |reported − true time| as a fraction of the horizon, of the pairs that are not degenerate and
-  /// for which both report a contact.
+  /// |reported − true time| as a fraction of the horizon, for the pairs that are not degenerate and have both a true
+  /// and a reported contact.
   double largest_error = 0, median_error = 0;
-  /// |true gap at the reported time| in units of the smallest semi-axis, of all pairs with a
-  /// contact.
+  /// |true gap at the reported time| in units of the smallest semi-axis, for all pairs with a contact.
   double largest_gap_error = 0;
-  /// |true gap at the reported time| in units of the contact gap (collision_case.h), of all pairs
-  /// with a reported contact whose true time is ill-defined (degenerate) or does not exist: how
-  /// far these answers are from being right.
+  /// |true gap at the reported time| in units of the contact gap (collision_case.h), for all pairs with a reported
+  /// contact whose true time is ill-defined (degenerate) or does not exist. It tells how far these answers are from
+  /// being right.
   double largest_moot_gap = 0;
 
   std::uint64_t count(Verdict of) const { return verdicts[static_cast<std::size_t>(of)]; }
-  /// Not one answer: the method is not made for such pairs.
+  /// Whether the method answers any pair at all; if not, it is not made for such pairs.
   bool applies() const { return count(Verdict::not_converged) < pairs; }
 };
 
-/// A pair that a method failed on, for a picture.
+/// A pair on which a method failed, for a picture.
 template <int Dim>
 struct FailingCaseOf {
   std::string method;
@@ -71,9 +71,9 @@ struct FailingCaseOf {
 
 template <int Dim>
 struct SurveyOf {
-  std::vector<SurveyRow> rows;  ///< class by class, methods in the order of the request
+  std::vector<SurveyRow> rows;  ///< sorted by class, then by method in the order of the request
   std::vector<FailingCaseOf<Dim>> failures;  ///< at most one per method
-  bool stopped = false;                      ///< before all pairs were done
+  bool stopped = false;  ///< true if the survey stopped before all pairs were done
 };
 
 using Candidate = CandidateOf<2>;
@@ -81,10 +81,10 @@ using SurveyRequest = SurveyRequestOf<2>;
 using FailingCase = FailingCaseOf<2>;
 using Survey = SurveyOf<2>;
 
-/// Asks every method about the same pairs, compares the answers with the reference and times
-/// the methods, the reference's time apart. Of a method's failures the first of the gravest kind is
-/// kept: late or missed, then early or false, these if the pair is degenerate, and last no answer,
-/// unless the method does not apply.
+/// Lets every method answer the same pairs, compares the answers with the reference, and times the methods without
+/// the reference. Of the failures of a method, the first of the gravest kind is kept: late or missed is graver than
+/// early or false, then follow failures on degenerate pairs, and last missing answers, unless the method does not
+/// apply.
 template <int Dim = 2>
 SurveyOf<Dim> survey(const SurveyRequestOf<Dim>& request, const RunControl& control);
 

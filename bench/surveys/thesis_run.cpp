@@ -18,7 +18,7 @@ namespace vitrel::bench {
 namespace {
 
 constexpr double sample_interval = 0.1;
-/// In a sample interval a particle has about half a collision; a run with so many events stands still.
+/// A particle has about half a collision in a sample interval, so a run with this many events stands still.
 constexpr std::uint64_t max_events_per_particle = 100;
 constexpr double diagonal = 0.25 * std::numbers::pi;
 
@@ -27,8 +27,7 @@ double energy(const Configuration2& c) {
   return sums.translational_energy + sums.rotational_energy;
 }
 
-/// An engine at work on a configuration, whose velocities are drawn anew every `brownian_step`
-/// (0: never).
+/// An engine that advances a configuration. Velocities are drawn anew every `brownian_step`, or never if it is 0.
 class Driver {
  public:
   Driver(std::unique_ptr<Engine2> engine, const Configuration2& start, double brownian_step)
@@ -36,7 +35,7 @@ class Driver {
     engine_->load(now_, next_step());
   }
 
-  /// False if the engine stands still.
+  /// Returns false if the engine stands still.
   bool advance(double until) {
     const std::uint64_t last = counters_.events + max_events_per_particle * now_.size();
     while (engine_->advance(until, counters_) == Engine2::Stop::block_end) {
@@ -51,7 +50,7 @@ class Driver {
   double next_step() const {
     return brownian_step_ > 0 ? brownian_step_ * static_cast<double>(steps_ + 1) : Engine2::never;
   }
-  /// To be called at the time of the next step: `draw` gets the configuration and the step's number.
+  /// Must be called at the time of the next step. `draw` receives the configuration and the number of the step.
   template <class Draw>
   void step(Draw draw) {
     ++steps_;
@@ -81,7 +80,7 @@ void note_overlaps(const Configuration2& now, ThesisRun& result) {
 }  // namespace
 
 double densest_square_lattice(const Ellipse& shape, double angle) {
-  // The lattice constant at which no neighbour along (i, j) touches.
+  // The lattice constant is the largest at which a neighbour at (x, y) touches.
   double constant = 0;
   const int far = static_cast<int>(std::ceil(shape.aspect_ratio())) + 1;
   for (int x = 0; x <= far; ++x)

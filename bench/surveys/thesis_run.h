@@ -9,58 +9,58 @@
 #include "edmd/engine.h"
 
 /// @file
-/// The simulations of chapter 4 of the thesis (woetzel2012), with its program and with this one.
+/// The simulations of chapter 4 of the thesis (woetzel2012), with its program and with vitrel.
 namespace vitrel::bench {
 
 /// N equal particles with a b = 1 in a square box.
 struct ThesisScene {
   int particles = 100;
-  double aspect_ratio = 2;  ///< 1: circles
+  double aspect_ratio = 2;  ///< 1 for circles
   double packing_fraction = 0.5;
   std::uint64_t seed = 1;
 };
 
-/// The largest packing fraction at which equal ellipses at `angle` fit a square lattice without
-/// overlap; κ = √3 at π/4 reaches π/(2√3).
+/// The largest packing fraction at which equal ellipses at `angle` fit on a square lattice without overlap. For κ =
+/// √3 at π/4 it is π/(2√3).
 double densest_square_lattice(const Ellipse& shape, double angle);
 
-/// On a square lattice with the major axes along its diagonal, as in the thesis, or triangular where
-/// that does not fit; at rest.
+/// The particles at rest on a square lattice with the major axes along its diagonal, as in the thesis, or on a
+/// triangular lattice where the square one does not fit.
 Configuration2 on_lattice(const ThesisScene& scene);
-/// The same after `duration` units of time of Newtonian dynamics, and with new velocities.
+/// The particles of the lattice after `duration` units of time of Newtonian dynamics, with new velocities.
 Configuration2 equilibrated(const ThesisScene& scene, double duration);
 
 enum class Program {
-  ours,      ///< the engine
-  thesis,    ///< every pair asked after every event, ellipses by SLSQP as the thesis has it
-  improved,  ///< the same with a table of the pairs' next events, and every answer checked
+  ours,      ///< the engine of vitrel
+  thesis,    ///< predicts every pair after every event, ellipses by SLSQP as in the thesis
+  improved,  ///< keeps a table of the next events of pairs, and checks every answer
 };
 const char* name_of(Program program);
 
 struct RunLimits {
-  double duration = 100;     ///< simulated
-  double seconds = 1e9;      ///< that the engine works; at least one sample is taken
-  double brownian_step = 0;  ///< τ_B, a multiple of the sample interval; 0: Newtonian
-  std::uint64_t seed = 1;    ///< of the velocities drawn at Brownian steps
+  double duration = 100;     ///< simulated time
+  double seconds = 1e9;      ///< working time of the engine; at least one sample is taken
+  double brownian_step = 0;  ///< τ_B, a multiple of the sample interval; 0 for Newtonian dynamics
+  std::uint64_t seed = 1;    ///< for the velocities drawn at Brownian steps
 };
 
 struct ThesisRun {
   double simulated_time = 0;
-  double seconds = 0;  ///< that the engine worked
+  double seconds = 0;  ///< working time of the engine
   RunCounters counters;
   std::uint64_t samples = 0;
   std::uint64_t samples_with_overlap = 0;  ///< by the exact check
   double deepest_overlap = 0;              ///< in units of b
-  double energy_drift = 0;                 ///< largest |E − E₀|/E₀ of a Newtonian run
-  bool stood_still = false;                ///< events without end at one time
+  double energy_drift = 0;                 ///< largest |E − E₀|/E₀ in a Newtonian run
+  bool stood_still = false;                ///< endless events at one time
 };
 
-/// What a row of a study says of it.
+/// The columns of a row of a study for this run.
 Json run_json(const ThesisRun& run);
 
 std::unique_ptr<Engine2> make_program(Program program, const Configuration2& start);
 
-/// Samples every 0.1 units of time: the exact check, and the energy.
+/// Runs the engine and samples every 0.1 units of time: the exact check, and the energy.
 ThesisRun run_thesis(std::unique_ptr<Engine2> engine, const Configuration2& start,
                      const RunLimits& limits, const RunControl& control);
 

@@ -10,21 +10,21 @@
 
 namespace vitrel::bench {
 
-/// The time per call of something that is asked many questions, in batches that grow as far as a
-/// control of seconds allows, but one question at least.
+/// Measures the time per call of a function in batches. The batches grow as far as the limit of seconds allows, but
+/// at least one call is made.
 ///
-/// Every batch is run three times and its shortest time counts, so that interruptions do not; a
-/// question that takes more than a millisecond is asked once.
+/// Every batch is run three times and its shortest time counts, so that interruptions do not. Calls that take more
+/// than a millisecond are made once.
 class TimedBatches {
  public:
-  /// Seconds since some moment.
+  /// Seconds since a fixed time.
   using Clock = std::function<double()>;
 
   explicit TimedBatches(double seconds = std::numeric_limits<double>::infinity(),
                         Clock clock = processor_seconds)
       : clock_(std::move(clock)), seconds_left_(seconds) {}
 
-  /// How many of the `left` questions to ask next; 0 when the control is used up.
+  /// The number of calls to make next, out of the `left` remaining ones; 0 when the seconds are used up.
   std::size_t next(std::size_t left) const {
     if (calls_ == 0) return std::min<std::size_t>(left, 1);
     const double cost = seconds_ / static_cast<double>(calls_) * repeats();
@@ -34,7 +34,7 @@ class TimedBatches {
     return affordable < static_cast<double>(size) ? static_cast<std::size_t>(affordable) : size;
   }
 
-  /// Runs ask(), which asks `count` questions.
+  /// Runs ask(), which makes `count` calls.
   template <class Ask>
   void run(std::size_t count, Ask&& ask) {
     double best = std::numeric_limits<double>::infinity();
@@ -59,8 +59,8 @@ class TimedBatches {
   Clock clock_;
   double seconds_left_;
   double seconds_ = 0;     // of the best runs
-  std::size_t calls_ = 0;  // questions in them
-  std::size_t last_ = 0;   // questions of the last batch
+  std::size_t calls_ = 0;  // in these runs
+  std::size_t last_ = 0;   // calls in the last batch
 };
 
 }  // namespace vitrel::bench

@@ -18,7 +18,7 @@ using Matrix = Eigen::Matrix<Real, 3, 3>;
 
 constexpr Real rounding = std::numeric_limits<Real>::epsilon();
 
-/// x ↦ ω × x
+/// The matrix of x ↦ ω × x.
 Matrix cross_product_with(const Vector& omega) {
   Matrix m;
   m << 0, -omega.z(), omega.y(), omega.z(), 0, -omega.x(), -omega.y(), omega.x(), 0;
@@ -29,7 +29,7 @@ Matrix commutator(const Matrix& a, const Matrix& b) {
   return a * b - b * a;
 }
 
-/// The rotation by the vector ω t (Rodrigues).
+/// The rotation by the rotation vector `turned` (Rodrigues' formula).
 Matrix turn(const Vector& turned) {
   const Real angle = turned.norm();
   if (angle == 0) return Matrix::Identity();
@@ -38,7 +38,7 @@ Matrix turn(const Vector& turned) {
   return Matrix::Identity() + std::sin(angle) * u + 2 * half * half * (u * u);
 }
 
-/// A vector of the plane in space.
+/// The vector of the plane, or of space, as a vector in space.
 Vector in_space(const Vec2& v) {
   return {v.x(), v.y(), 0};
 }
@@ -54,7 +54,7 @@ class Body {
         size_(flight.body.size),
         growth_(flight.body.growth_rate),
         omega_(flight.motion.angular_velocity.cast<Real>()) {}
-  /// As the section of a spheroid.
+  /// An ellipse is the section of a spheroid.
   Body(const Flight<GrowingEllipse>& flight, Real end)
       : Body({{{Vec3(flight.body.shape.a, flight.body.shape.b, flight.body.shape.a)},
                flight.body.size,
@@ -75,7 +75,7 @@ class Body {
   bool is_round() const { return shape_.is_round(); }
   Real radius_at(Real time) const { return shape_.circumradius() * size_at(time); }
 
-  /// A small body for a point.
+  /// The axes at a time. A point has a small size instead of 0.
   EllipsoidAxes<Real> axes_at(Real time) const {
     constexpr Real smallest = 1e-18L;
     EllipsoidAxes<Real> axes = at_start_;
@@ -84,7 +84,7 @@ class Body {
     return axes;
   }
 
-  /// How the support function grows, s h, with its derivative in time.
+  /// The support function s h with its time derivative.
   struct Support {
     Real height, rate;
   };
@@ -98,7 +98,7 @@ class Body {
             growth_ * h - size_at(time) * point.dot(now.angular_velocity.cross(n))};
   }
 
-  /// The most of d²(s h)/dt² up to the horizon.
+  /// An upper bound of d²(s h)/dt² up to the horizon.
   Real bend(Real horizon) const {
     if (top_) return tumbling_bend();
     const Matrix axes = at_start_.directions * at_start_.lengths.asDiagonal();
@@ -109,7 +109,7 @@ class Body {
            2 * std::abs(growth_) * omega_.norm() * shape_.max_support_rate();
   }
 
-  /// By how much a relative error of the initial state rotates the body.
+  /// The angle by which the body is off, over the relative error of its initial state.
   Real phase(Real time) const { return top_ ? top_->sensitivity(time) : omega_.norm() * time; }
 
  private:
@@ -127,7 +127,7 @@ class Body {
   EllipsoidAxes<Real> at_start_;
   Real size_, growth_;
   Vector omega_;
-  std::optional<TaylorTop> top_;  ///< of a scalene body that tumbles
+  std::optional<TaylorTop> top_;  ///< for a scalene body that tumbles
 };
 
 struct Pair {
@@ -155,7 +155,7 @@ struct Pair {
             n.dot(velocity) - first.rate - second.rate, n};
   }
 
-  /// By how much a gap may be off.
+  /// A bound of the error of the gap by rounding.
   Real blur(Real time) const {
     return 8 * rounding *
            (d(time).norm() + one.radius_at(time) * (1 + one.phase(time)) +
@@ -172,14 +172,14 @@ struct Pair {
   Vector start, velocity;
 };
 
-/// The positive root of gap + rate s − ½ bend s², if any; gap > 0.
+/// The positive root s of gap + rate s − ½ bend s², where gap > 0; infinity if there is none.
 Real safe_step(Real gap, Real rate, Real bend) {
   const Real root = std::sqrt(rate * rate + 2 * bend * gap);
   if (rate < 0) return 2 * gap / (root - rate);
   return bend > 0 ? (rate + root) / bend : std::numeric_limits<Real>::infinity();
 }
 
-/// An overlap soon after the time up to which the pair is disjoint, if the surfaces cross there.
+/// Finds an overlap soon after the time up to which the pair is disjoint, if the surfaces cross there.
 std::optional<Real> overlap_beyond(const Pair& pair, Real time, Real approach_speed) {
   constexpr int doublings = 8;
   if (approach_speed <= 0) return {};
@@ -189,7 +189,7 @@ std::optional<Real> overlap_beyond(const Pair& pair, Real time, Real approach_sp
   return {};
 }
 
-/// Where `holds` begins to be false, between a time at which it is true and one at which it is not.
+/// The last time at which `holds` is true, between a time at which it is true and one at which it is false.
 template <class Condition>
 Real last_time(Real yes, Real no, const Condition& holds) {
   while (true) {
@@ -199,14 +199,15 @@ Real last_time(Real yes, Real no, const Condition& holds) {
   }
 }
 
-/// Where the search ends.
+/// The result of the search.
 struct Found {
   TruthOutcome outcome = TruthOutcome::none;
   Real time = 0, uncertainty = 0;
   int pieces = 0;
 };
 
-/// The surfaces touch where the overlap begins, as computed; rounding may hide a gap as large as the one before it.
+/// The surfaces touch where the computed overlap begins. Rounding may hide a gap, so the uncertainty reaches back to
+/// the last time at which the bodies are known to be disjoint.
 Found crossing_between(const Pair& pair, Real disjoint, Real overlapping, int pieces) {
   const Real time = last_time(disjoint, overlapping, [&](Real t) { return !pair.overlapping(t); });
   const Real known = last_time(disjoint, time, [&](Real t) { return pair.disjoint(t); });

@@ -12,56 +12,57 @@ struct TrueContactOf {
   Outcome outcome = Outcome::none;
   long double time = 0;
   long double uncertainty = 0;  ///< the contact lies within `time` ± this
-  int pieces = 0;               ///< steps of the search
-  /// At the contact, or where it is undecided: the unit vector from 1 to 2 normal to the surfaces,
-  /// and the speed at which the surfaces approach along it, growth included.
+  int pieces = 0;               ///< number of steps of the search
+  /// The unit vector from 1 to 2 normal to the surfaces, and the speed at which the surfaces approach along it,
+  /// growth included; both at the contact or, if it is undecided, at the time in question.
   Vec<Dim> normal = Vec<Dim>::Zero();
   double approach_speed = 0;
 };
 using TrueContact = TrueContactOf<2>;
 using TrueEllipsoidContact = TrueContactOf<3>;
 
-/// The true first contact of two ellipses or ellipsoids in free flight, growing, tumbling or neither: slow, in 80-bit
-/// arithmetic, and without a step that could pass over a short overlap. It shares no code with the engine.
+/// The true first contact of two ellipses or ellipsoids in free flight, which may grow or tumble. The search is slow,
+/// uses 80-bit arithmetic, and takes no step that could pass over a short overlap. It shares no code with the engine.
 ///
-/// An ellipse with the semi-axes a ≥ b is the section of the spheroid (a, b, a): along any n of the plane both have the
-/// same support function, and no n out of the plane separates two such spheroids by more, as their third semi-axis is the
-/// longest. They touch when the ellipses do.
+/// An ellipse with semi-axes a ≥ b is the section of the spheroid (a, b, a). For any n in the plane both have the
+/// same support function, and no n out of the plane separates two such spheroids by more, because their third
+/// semi-axis is the longest. The spheroids therefore touch when the ellipses do.
 ///
-/// Disjoint at a time: if there is an axis n along which the support gap
+/// The bodies are disjoint at a time if there is an axis n along which the support gap
 ///     G(n, t) = n·d − s₁h₁ − s₂h₂,   hᵢ = √(nᵀΣᵢn),   Σᵢ the shape matrix at size 1, sᵢ the size,
-/// is positive, wherever n comes from (ellipsoid_touch, core/contact/ellipsoid_eta.h). Overlapping: by the
-/// completed criterion of η₁ … η₅ in 80-bit arithmetic. Between the two lies a gap of about the rounding,
-/// where nothing is said.
+/// is positive; n may come from any source (here ellipsoid_touch, core/contact/ellipsoid_eta.h). They overlap by the
+/// completed criterion of η₁ … η₅ in 80-bit arithmetic. In between lies a gap of about the rounding, for which
+/// nothing is decided.
 ///
-/// Steps. From a time with G > 0 the same axis separates the bodies up to the root of
+/// From a time with G > 0, the same axis separates the bodies up to the root of
 ///     G + Ġ s − ½ M s²,   M = Σᵢ ( most of sᵢ · ½‖[Ωᵢ, [Ωᵢ, Σᵢ]]‖/cᵢ + 2 |γᵢ ωᵢ| (aᵢ − cᵢ) ) ≥ −G̈,
-/// since Σ̇ = [Ω, Σ] with Ωx = ω × x, the norm (of Frobenius) of [Ω, [Ω, Σ]] does not change as the body
-/// turns, and ḧ = (½ nᵀΣ̈n − ḣ²)/h with h ≥ c. A scalene body that tumbles (bench/reference/taylor_top.h; other
-/// bodies keep their ω) contributes instead
+/// since Σ̇ = [Ω, Σ] with Ωx = ω × x, since the Frobenius norm of [Ω, [Ω, Σ]] does not change as the body turns, and
+/// since ḧ = (½ nᵀΣ̈n − ḣ²)/h with h ≥ c. A scalene body that tumbles (bench/reference/taylor_top.h; other bodies
+/// keep their ω) contributes instead
 ///
 ///     (1 + 1/√12) (a² − c²) Ω²/c,   Ω² = 2E/I₁ ≤ (L/I₁)², I₁ the smallest moment:
 ///
 /// n moves in the frame of the body with ṅ = −ω × n and n̈ = ω × (ω × n) − ω̇ × n, where |ω| ≤ Ω, and |ω̇| ≤ Ω²/√3 by
-/// Euler's equations, since |Iⱼ − Iₖ| ≤ Iᵢ; and ½ d²(nᵀΣn)/dt² = ṅᵀΣṅ + nᵀΣn̈, in which (a² + c²)/2 may be taken from Σ
-/// as |n| = 1, so that its norm is (a² − c²)/2. The times approach the first contact from below, close to
-/// it with Newton's speed. Where G has become as small as rounding, the time by which the surfaces must
-/// have crossed is tried for an overlap, and the beginning of the overlap bisected. The uncertainty is the time since the
-/// bodies were last disjoint by more than rounding: |n·d| is good to 4 ε|d|, and hᵢ to 8 ε aᵢ (core/state/exact_pair.cpp).
+/// Euler's equations, since |Iⱼ − Iₖ| ≤ Iᵢ. In ½ d²(nᵀΣn)/dt² = ṅᵀΣṅ + nᵀΣn̈, (a² + c²)/2 may be subtracted from Σ
+/// because |n| = 1, so that its norm is (a² − c²)/2. The times approach the first contact from below, and close to it
+/// with Newton's speed. Where G has become as small as rounding, the search tests for an overlap at the time by which
+/// the surfaces must have crossed, and bisects for the beginning of the overlap. The uncertainty is the time since
+/// the bodies were last disjoint by more than rounding: |n·d| is accurate to 4 ε|d|, and hᵢ to 8 ε aᵢ
+/// (core/state/exact_pair.cpp).
 ///
-/// Rounding of the attitude is counted with an estimate, TaylorTop::sensitivity, not with a proven bound. Near the
-/// separatrix of flat bodies it makes the uncertainty of a contact as large as 1e-6, far more than the time is off.
+/// The rounding of the attitude is estimated (TaylorTop::sensitivity), not bounded by a proof. Near the separatrix of
+/// flat bodies it makes the uncertainty of a contact as large as 1e-6, which is far more than the error of the time.
 ///
-/// `undecided`: no overlap is found there: the surfaces touch, or miss each other by the rounding. Sizes
-/// must not become negative within the horizon.
+/// The result is `undecided` if no overlap is found there: the surfaces touch, or miss each other by less than the
+/// rounding. Sizes must not become negative within the horizon.
 ///
-/// Instantiated for GrowingEllipse, GrowingEllipsoid and TumblingEllipsoid.
+/// The function is instantiated for GrowingEllipse, GrowingEllipsoid and TumblingEllipsoid.
 template <class B>
 TrueContactOf<B::dimension> true_first_contact(const Flight<B>& one, const Flight<B>& two,
                                                double horizon);
 
-/// The distance of the surfaces at `time`, or minus the depth of the overlap, by the exact check's
-/// arithmetic (core/state/exact_pair.h).
+/// The distance of the surfaces at `time`, or minus the depth of the overlap, by the arithmetic of the exact check
+/// (core/state/exact_pair.h).
 template <class B>
 long double true_gap(const Flight<B>& one, const Flight<B>& two, long double time);
 

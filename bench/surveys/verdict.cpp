@@ -12,7 +12,7 @@ bool answers_contact(const Prediction<Dim>& answer) {
   return answer.outcome == Outcome::contact || answer.outcome == Outcome::overlap;
 }
 
-// An overlap found at the start is a contact at time 0.
+// An overlap that a method finds at the start counts as a contact at time 0.
 template <int Dim>
 double time_of(const Prediction<Dim>& answer) {
   return answer.outcome == Outcome::overlap ? 0 : answer.time;
@@ -26,15 +26,15 @@ bool is_degenerate(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& 
   return truth.approach_speed < 0.02 * asked.reach() / asked.horizon;
 }
 
-// A contact answered where a true one exists; `off` is the time error.
+// The verdict on a reported contact if there is a true one; `off` is the error of its time.
 Verdict timing(double off, double allowed, bool degenerate, bool at_rounding) {
   if (std::abs(off) <= allowed) return Verdict::correct;
   if (off > 0) return Verdict::late;
   return degenerate && at_rounding ? Verdict::correct : Verdict::early;
 }
 
-/// By how much the contact moves if each number of the initial rotations changes by one unit in the last place of its
-/// vector, all in the worst way.
+/// The change of the contact time if each number of the initial rotations changes by one unit in the last place of
+/// its vector, with all changes added.
 double effect_of_rounding(const EllipsoidCase& asked, const TrueEllipsoidContact& truth) {
   constexpr double unit = std::numeric_limits<double>::epsilon();
   double sum = 0;
@@ -59,7 +59,7 @@ double effect_of_rounding(const EllipsoidCase& asked, const TrueEllipsoidContact
   return sum;
 }
 
-/// By how much the time may be off; `off` tells whether that must be known exactly.
+/// The allowed error of the time. `off` is the actual one: if it is small, the allowed one need not be known exactly.
 template <int Dim>
 double allowed_error(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& truth,
                      double tolerance, double off, bool degenerate) {

@@ -14,15 +14,16 @@
 #include "core/geometry/pose.h"
 
 /// @file
-/// NumPy arrays from and to the vectors of the program.
+/// Conversion between NumPy arrays and the vectors of the program.
 namespace vitrel::python {
 
 namespace py = pybind11;
 
-/// Numbers in rows; converted, and copied, only if they are not doubles in that order already.
+/// Rows of numbers. An array is converted, and thus copied, only unless it already holds doubles in row-major order.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Rows of `columns` numbers, or of one if that is 0: UserError if the shape is another.
+/// The number of rows of an array of shape (N, columns), or (N,) if `columns` is 0. Throws UserError if it has
+/// another shape.
 inline std::size_t require_rows(const py::array& array, int columns, const std::string& name) {
   const bool fits =
       columns == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == columns;
@@ -32,7 +33,7 @@ inline std::size_t require_rows(const py::array& array, int columns, const std::
   return static_cast<std::size_t>(array.shape(0));
 }
 
-/// As `require_rows`, and exactly this number.
+/// Requires the shape as above, and exactly n rows.
 inline void require_rows(const py::array& array, int columns, const std::string& name,
                          std::size_t n) {
   if (const std::size_t found = require_rows(array, columns, name); found != n)
@@ -44,7 +45,7 @@ Vec<Dim> row(const Doubles& array, std::size_t i) {
   return Eigen::Map<const Vec<Dim>>(array.data(static_cast<py::ssize_t>(i)));
 }
 
-/// The array of a vector of vectors, without a copy: `owner` keeps it alive.
+/// The vectors as an array, without a copy. `owner` keeps them alive.
 template <class Scalar, int Dim>
 py::array_t<Scalar> view(std::vector<Eigen::Matrix<Scalar, Dim, 1>>& values, py::handle owner) {
   return py::array_t<Scalar>({values.size(), static_cast<std::size_t>(Dim)},

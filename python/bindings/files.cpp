@@ -9,7 +9,7 @@
 namespace vitrel::python {
 namespace {
 
-/// States of the same particles, in the order of time.
+/// Writes states of the same particles, which must be in the order of time.
 template <int Dim>
 void write_states(const std::filesystem::path& path, const py::list& states, bool velocities) {
   const auto& first = states[0].cast<const Configuration<Dim>&>();

@@ -9,7 +9,8 @@
 
 namespace vitrel::python {
 
-/// Whether an interval has passed since it was last so: the interpreter is not asked at every block.
+/// Tells whether an interval has passed since it last returned true, so that work need not ask the interpreter at
+/// every block.
 class Interval {
  public:
   using Clock = std::chrono::steady_clock;
@@ -27,13 +28,14 @@ class Interval {
   Clock::time_point last_ = Clock::now();
 };
 
-/// Whether the interpreter exits: the threads of Python that are at work then, daemons, end their work.
+/// Whether the interpreter is exiting. Daemon threads that are at work then end their work.
 bool interpreter_exits();
-/// Lets the exit of the interpreter wait until no thread is at work without its lock: to take the lock later would end the
-/// process.
+/// Makes the exit of the interpreter wait until no thread works without its lock, because taking the lock later would
+/// end the process.
 void wait_at_exit();
 
-/// Releases the lock of the interpreter for work without it. Throws SystemExit if the interpreter exits.
+/// Releases the lock of the interpreter during work that does not need it. Throws SystemExit if the interpreter is
+/// exiting.
 class Released {
   struct Counted {
     Counted();
@@ -41,14 +43,15 @@ class Released {
     Counted(const Counted&) = delete;
     Counted& operator=(const Counted&) = delete;
   };
-  Counted counted_;  // until the lock is taken again
+  Counted counted_;  // lives until the lock is taken again
   pybind11::gil_scoped_release release_;
 };
 
-/// What ends such work before its time: Ctrl-C, another signal whose handler raises, or the exit of the interpreter.
+/// Ends work without the lock early: at Ctrl-C, at another signal whose handler raises, or when the interpreter
+/// exits.
 class Interruption {
  public:
-  /// Asks the interpreter, now and then.
+  /// Whether the work must end. The interpreter is asked only from time to time.
   bool requested() {
     if (interpreter_exits()) return true;
     if (raised_ || !check_.passed()) return raised_.has_value();
@@ -58,7 +61,7 @@ class Interruption {
   }
   /// Throws what the handler raised, or SystemExit.
   void raise() const;
-  /// For work that can be thrown out of, and that may report its progress.
+  /// Ends work that an exception may leave; as a call operator it can take the place of a report of progress.
   void raise_if_requested() {
     if (requested()) raise();
   }

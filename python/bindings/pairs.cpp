@@ -13,10 +13,10 @@
 namespace vitrel::python {
 namespace {
 
-/// Numbers in rows with any strides, such as those of one number for all rows.
+/// Rows of numbers with any strides. If one number holds for all rows, the stride may be zero.
 using Rows = py::array_t<double, py::array::forcecast>;
 
-/// Unchecked access to an array of so many dimensions.
+/// Unchecked access to an array with this number of dimensions.
 template <int Dimensions>
 using Numbers = decltype(std::declval<const Rows&>().unchecked<Dimensions>());
 
@@ -27,7 +27,7 @@ Vec<Dim> row_of(const Numbers<2>& rows, std::size_t i) {
   return row;
 }
 
-/// N bodies in free flight: views of arrays, which stay those of the caller.
+/// N bodies in free flight. They are views of arrays that the caller owns.
 template <int Dim>
 class Bodies {
  public:
@@ -49,7 +49,7 @@ class Bodies {
 
   std::size_t size() const { return size_; }
 
-  /// UserError if a number is impossible.
+  /// Throws UserError if a number is impossible.
   Flight<ParticleShape<Dim>> at(std::size_t i) const {
     const auto k = static_cast<py::ssize_t>(i);
     const Vec<Dim> axes = row_of<Dim>(semi_axes_, i);
@@ -89,7 +89,7 @@ class Bodies {
     require(i, body.motion.velocity.allFinite(), "velocity must be finite");
   }
 
-  std::array<Rows, 5> arrays_;  ///< keeps them alive
+  std::array<Rows, 5> arrays_;  ///< keep the arrays alive
   std::size_t size_;
   Numbers<2> semi_axes_, position_, velocity_;
   Turns orientation_, angular_velocity_;
@@ -105,10 +105,10 @@ std::optional<PeriodicBox<Dim>> box_of(const std::optional<Doubles>& lengths) {
   return PeriodicBox<Dim>(edges);
 }
 
-/// Whether to go on.
+/// The number of pairs between two checks for an interruption.
 constexpr std::size_t pairs_between_questions = 1000;
 
-/// All pairs of bodies of the same number: calls use(i, pair) without the interpreter.
+/// Calls use(i, pair) for the i-th bodies of both sets, without the lock of the interpreter.
 template <int Dim, class Use>
 void for_each_pair(const Bodies<Dim>& one, const Bodies<Dim>& two,
                    const std::optional<Doubles>& box, double horizon, Use&& use) {
@@ -184,7 +184,7 @@ void bind(py::module_& module, const char* name) {
              py::arg("horizon"));
 }
 
-/// Rows (ε_r, ε_φ, ε_t, ε_ṙ, duration in s) of impacts of soft spheres.
+/// The coefficients of impacts of soft spheres as rows (ε_r, ε_φ, ε_t, ε_ṙ, duration in s).
 py::array_t<double> restitution(const std::filesystem::path& file,
                                 const std::vector<std::string>& overrides, const Doubles& speed,
                                 const Doubles& impact_parameter,

@@ -14,7 +14,7 @@ Bytes array_of(const std::vector<Colour>& colours) {
                reinterpret_cast<const std::uint8_t*>(colours.data()));
 }
 
-/// An empty name: the default.
+/// An empty name stands for the default colouring.
 template <int Dim>
 Bytes named_colours(const Configuration<Dim>& state, const std::string& name) {
   std::optional<ColourScale> scale;

@@ -18,7 +18,7 @@
 namespace vitrel::python {
 namespace {
 
-/// (name, unit, values, errors or None, labels)
+/// The column as (name, unit, values, errors or None, labels).
 py::tuple column_of(const Column& column) {
   const py::object errors = column.error.empty()
                                 ? py::object(py::none())
@@ -27,7 +27,7 @@ py::tuple column_of(const Column& column) {
                         column.labels);
 }
 
-/// [(name, description, columns)]
+/// The tables as [(name, description, columns)].
 py::list tables_of(const Results& results) {
   py::list tables;
   for (const Table& table : results.tables) {
@@ -48,7 +48,7 @@ AnalysisProgress until(Interruption& interruption) {
   return {{}, std::ref(interruption)};
 }
 
-/// (summary as JSON, tables, [(name, text)] of the provenance)
+/// Returns the summary as JSON, the tables, and the provenance as [(name, text)].
 py::tuple analyze_file(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides) {
   const AnalysedRun run = [&] {
@@ -60,7 +60,8 @@ py::tuple analyze_file(const std::filesystem::path& file,
                         run.results.provenance);
 }
 
-/// The same of a sweep, and the files of its finished jobs.
+/// Returns the summary of the glass study as JSON, the tables, the provenance, the files of the finished jobs, and
+/// the names of the unfinished jobs.
 py::tuple analyze_sweep(const std::filesystem::path& folder,
                         const std::vector<std::string>& overrides) {
   AnalysedSweep analysed;
@@ -79,7 +80,7 @@ py::tuple analyze_sweep(const std::filesystem::path& folder,
                         sweep.unfinished);
 }
 
-/// As HTML.
+/// The report page as HTML.
 std::string page(const std::filesystem::path& input, const std::vector<std::string>& overrides) {
   const Released released;
   Interruption interruption;
@@ -92,7 +93,7 @@ void write_page(const std::filesystem::path& input, const std::filesystem::path&
   write_text(output, page(input, overrides));
 }
 
-/// Mean and standard error of a series; without an error if it is not evenly spaced in time.
+/// The mean and standard error of a series. The error is NaN if the series is not evenly spaced in time.
 py::tuple average(const Doubles& time, const Doubles& value) {
   const std::size_t n = require_rows(time, 0, "time");
   require_rows(value, 0, "value", n);

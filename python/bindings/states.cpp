@@ -37,7 +37,7 @@ std::vector<Quaternion> quaternions(const Doubles& array, std::size_t n) {
   return result;
 }
 
-/// What Python gives; what is not given is empty.
+/// The arrays that Python passes. Those that are not given are empty.
 struct Arrays {
   Doubles position, box, semi_axes;
   std::optional<Doubles> angle, orientation, mass, velocity, angular_velocity;
@@ -81,7 +81,7 @@ py::array_t<double> semi_axes(Configuration<Dim>& state, py::handle owner) {
                              reinterpret_cast<double*>(state.shape.data()), owner);
 }
 
-/// w, x, y, z, as in files.
+/// The quaternions as w, x, y, z, the order that files have.
 py::array_t<double> orientations(const Configuration3& state) {
   py::array_t<double> result({state.size(), std::size_t{4}});
   double* out = result.mutable_data();
@@ -118,7 +118,7 @@ py::dict check(const Configuration<Dim>& state) {
 
 // ---- pickling ---------------------------------------------------------------------------------------------
 
-/// visit(vector) for everything there is a number of for every particle, or pair.
+/// Calls visit(vector) for every vector that has an entry per particle, or per pair.
 template <class State, class Visit>
 void each_vector(State& state, Visit&& visit) {
   visit(state.position);
@@ -136,7 +136,7 @@ void each_vector(State& state, Visit&& visit) {
     visit(state.orientation);
 }
 
-/// The whole state with all bits of its numbers.
+/// Pickles the whole state with all bits of its numbers.
 template <int Dim>
 py::tuple pickled(const Configuration<Dim>& state) {
   py::list parts;

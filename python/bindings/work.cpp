@@ -16,8 +16,8 @@
 namespace vitrel::python {
 namespace {
 
-/// Python hears of the work: `say(line)` and `show(fraction, quantity, value)`. Both may be None. It stops the work at
-/// its next block when it has a signal to handle, like that of Ctrl-C.
+/// Reports the work to Python by `say(line)` and `show(fraction, quantity, value)`, both of which may be None. It
+/// stops the work at its next block if Python has a signal to handle, such as that of Ctrl-C.
 class Listener {
  public:
   Listener(py::object say, py::object show) : say_(std::move(say)), show_(std::move(show)) {}
@@ -32,7 +32,7 @@ class Listener {
     return {
         [this] { return interruption_.requested(); }, [this](const Progress& p) { show(p); }, {}};
   }
-  /// Once the work has ended: KeyboardInterrupt, or what else the signal raised.
+  /// Raises, once the work has ended, KeyboardInterrupt or whatever else the handler of the signal raised.
   void raise() const { interruption_.raise(); }
 
  private:
@@ -81,7 +81,7 @@ py::object prepared(const PrepareRequest& request, Listener& listener) {
                         effective_parameters(preparation.parameters));
 }
 
-/// The state and the parameters that made it.
+/// Returns the state and the parameters that made it.
 py::object prepare_state(const std::filesystem::path& file,
                          const std::vector<std::string>& overrides,
                          const std::optional<std::filesystem::path>& start, bool shrink,
@@ -105,7 +105,7 @@ std::string run_of(const RunRequest& request, Listener& listener, const py::obje
   return run_summary(request, outcome).dump();
 }
 
-/// The summary of the run, as JSON.
+/// Returns the summary of the run as JSON.
 std::string run_file(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                      const std::optional<std::filesystem::path>& start,
                      const std::filesystem::path& output, int threads, py::object say,
@@ -117,7 +117,7 @@ std::string run_file(const std::filesystem::path& file, const std::vector<std::s
                                      : run_of<3>(request, listener, see);
 }
 
-/// How many jobs are done, failed, and whether the sweep was stopped.
+/// Returns the numbers of jobs that are done and that failed.
 py::tuple sweep_folder(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                        const std::filesystem::path& folder, const std::filesystem::path& program,
                        int parallel, py::object say, py::object show) {
@@ -131,7 +131,7 @@ py::tuple sweep_folder(const std::filesystem::path& file, const std::vector<std:
   return py::make_tuple(outcome.done, outcome.failed);
 }
 
-/// What runs the jobs, in the folder.
+/// Returns the command that runs the jobs, to be given in the folder.
 std::string exported_sweep(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides,
                            const std::filesystem::path& folder,

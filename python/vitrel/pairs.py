@@ -83,10 +83,10 @@ def overlap(one: Bodies, two: Bodies, box: Optional[numpy.ndarray] = None) -> nu
 class Gap(NamedTuple):
     """Distances of surfaces. Normal and points are NaN where the bodies overlap."""
 
-    gap: numpy.ndarray  #: (N,), of an overlap minus its depth
+    gap: numpy.ndarray  #: (N,), minus the depth if the bodies overlap
     normal: numpy.ndarray  #: (N, D), unit vectors from the first body to the second
     point_1: numpy.ndarray  #: (N, D), the closest point of the first body
-    point_2: numpy.ndarray  #: (N, D), that of the second
+    point_2: numpy.ndarray  #: (N, D), the closest point of the second body
 
 
 def gap(one: Bodies, two: Bodies, box: Optional[numpy.ndarray] = None) -> Gap:
@@ -110,9 +110,9 @@ def first_contact(one: Bodies, two: Bodies, horizon: float, box: Optional[numpy.
 class Restitution(NamedTuple):
     """The restitution matrix of soft spheres: how distance, angle, time and rate change in a collision."""
 
-    distance: numpy.ndarray  #: (N,), ε_r, of the centres at the end, in units of the distance at first contact
-    angle: numpy.ndarray  #: (N,), ε_φ, by which the line of centres turns, rad
-    duration: numpy.ndarray  #: (N,), ε_t, in units of the time scale of the force
+    distance: numpy.ndarray  #: (N,), ε_r, the distance of the centres at the end over that at first contact
+    angle: numpy.ndarray  #: (N,), ε_φ, the angle by which the line of centres turns, rad
+    duration: numpy.ndarray  #: (N,), ε_t, the duration in units of the time scale of the force
     rate: numpy.ndarray  #: (N,), ε_ṙ < 0, the normal speed at the end over that at first contact
     time: numpy.ndarray  #: (N,), the duration in seconds
 

@@ -60,7 +60,8 @@ def listener(quiet: bool) -> Tuple[Optional[Callable[[str], None]], Optional[Cal
         return None, None, _Nothing()
     shown: Union[_Bar, _Line]
     try:
-        with warnings.catch_warnings(action="ignore"):  # that a notebook without ipywidgets gets a bar of text
+        # A notebook without ipywidgets gets a bar of text; the warning about it is ignored.
+        with warnings.catch_warnings(action="ignore"):
             tqdm = importlib.import_module("tqdm.auto").tqdm
         shown = _Bar(tqdm, sys.stderr)
     except ImportError:

@@ -153,7 +153,7 @@ class Table(_ByName[Column]):
         chart = next(iter(found.values()), None)
         if chart is None:
             chart = Chart(self, {"symbol": columns[0] if len(columns) == 1 else "", "x": names[0], "xSymbol": names[0]}, {})
-        elif not chart.labels.keys() >= set(columns):  # columns of several charts: each is named by the symbol of its own
+        elif not chart.labels.keys() >= set(columns):  # they come from several charts, so each has its own symbol
             chart = Chart(self, {**chart.description, "symbol": ""},
                           {name: found[name].description["symbol"] if name in found else name for name in columns})
         if x is not None:
@@ -235,7 +235,7 @@ class Chart:
         if scale == "logarithmic":
             axes.set_yscale("log")
         elif scale in ("fromZero", "aroundOne"):
-            axes.set_ylim(bottom=0, auto=True)  # the next curve may be higher
+            axes.set_ylim(bottom=0, auto=True)  # because the next curve may be higher
 
 
 def charts(table, column=None):

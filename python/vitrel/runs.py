@@ -25,7 +25,7 @@ class Page:
     """What has a report page: one HTML file that needs nothing beside it."""
 
     path: pathlib.Path
-    _imports: Sequence[str] = ()  # assignments of [import], for files of other programs
+    _imports: Sequence[str] = ()  # assignments of keys of [import], for files of other programs
 
     def report(self, path=None) -> pathlib.Path:
         """Writes the page, by default beside the run or into the folder of the sweep; returns its path.
@@ -160,7 +160,7 @@ class Run(Page):
         return plain_columns(self.dimension)
 
     def __getattr__(self, name: str):
-        if name.startswith("_") or hasattr(type(self), name):  # no column, but what failed in a property
+        if name.startswith("_") or hasattr(type(self), name):  # the name is no column; getting a property has failed
             raise AttributeError(name)
         try:
             return self.results.find(name)

@@ -62,7 +62,7 @@ class AnalysisSettings(parameters.Analysis, Sections, total=False):
     """Keys of the section [analysis], and all sections."""
 
 
-# Whose keys need no section, by function; the first that has the key counts.
+# The sections whose keys need no prefix, for each function. The first section that has the key counts.
 _RUN = ("dynamics", "system", "species", "output", "prepare")
 _SECTIONS = {
     "prepare": ("prepare", "system", "species", "output"), "run": _RUN, "sweep": (*_RUN, "sweep"), "analyze": ("analysis",),
@@ -116,7 +116,7 @@ def _words(message: str, function: Callable[..., Any], by_species: bool) -> str:
     def argument(match: re.Match[str]) -> str:
         parts = match[2].split(".")
         if not match[1] and _misspelt([python_name(part) for part in parts], ParameterFile):
-            return match[0]  # the name of a file
+            return match[0]  # it is the name of a file
         known = _SECTIONS[function.__name__]
         if parts[:2] == ["species", "0"] and "species" in known and not by_species:
             parts = parts[2:]

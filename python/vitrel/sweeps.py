@@ -91,7 +91,7 @@ def sweep(file: Optional[Path] = None, *, output: Path, parallel: Optional[int] 
         all of `vitrel.run`. The keys of `grid` and `together` are keyword arguments of `run`, or keys with dots:
         ``grid={"packing_fraction": [0.5, 0.6], "species.0.aspect_ratio": [2, 3]}``.
     """
-    # A virtual environment need not be in the path.
+    # The folder of programs of a virtual environment need not be in the path.
     program = program or shutil.which("vitrel", path=sysconfig.get_path("scripts")) or shutil.which("vitrel")
     if program is None:
         raise _vitrel.FileError("the program vitrel, which works on the jobs of a sweep, is not in the path; give its place as "

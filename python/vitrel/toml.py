@@ -60,7 +60,7 @@ def unexpected(function: str, name: str, known: Iterable[str]) -> TypeError:
 class Setting:
     """A table of the parameter file, with its keys as attributes. Values that are the default are left to it."""
 
-    _form: ClassVar[Optional[tuple[str, str]]] = None  # the key and the word that tell this form of the table
+    _form: ClassVar[Optional[tuple[str, str]]] = None  # the key and the word that select this form of the table
 
     def __new__(cls, **settings: Any) -> Any:
         for name in settings:

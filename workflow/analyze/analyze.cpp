@@ -24,7 +24,7 @@
 namespace vitrel {
 namespace {
 
-// By whom and how results were computed, in their provenance.
+// Provenance keys of the results that say by what program and with which parameters they were computed.
 constexpr const char* analysis_key = "analysis_parameters";
 constexpr const char* analyzer_key = "analysed_by";
 const std::string import_prefix = "import: ";
@@ -47,7 +47,7 @@ OpenRun open_run(const std::filesystem::path& file, const AnalysisChoice& choice
   return {std::move(reader), parse_parameters(recorded, file.string(), choice.overrides)};
 }
 
-/// Tables of files with one species are not called after it.
+/// The names of species become names of tables if there are two or more species.
 void require_own_names(const TrajectoryReader& reader) {
   if (reader.species_names().size() < 2) return;
   if (const auto conflict = species_name_conflict(reader.species_names()))
@@ -55,7 +55,7 @@ void require_own_names(const TrajectoryReader& reader) {
                                 conflict->species, conflict->complaint));
 }
 
-/// Correlations of odd order change their sign with the director, whose sign means nothing.
+/// Correlations of odd order change sign with the director, whose sign has no meaning.
 void require_orders_of_directors(const TrajectoryReader& reader,
                                  const DisplacementOptions& analysis) {
   if (!reader.angles_are_directors()) return;
@@ -67,7 +67,7 @@ void require_orders_of_directors(const TrajectoryReader& reader,
                       reader.path().string(), n));
 }
 
-/// The file becomes part of the message where it cannot be analysed as it was asked for.
+/// Names the file in the message of a UserError that `work` throws.
 auto naming(const std::filesystem::path& file, auto&& work) {
   try {
     return work();
@@ -80,7 +80,7 @@ Column single(const std::string& name, const std::string& unit, double value, do
   return {name, unit, {value}, {error}};
 }
 
-/// A coefficient, and the window of time that it is from.
+/// Adds a coefficient and the window of times over which it was fitted.
 void add_slope(std::vector<Column>& columns, const std::string& name, const std::string& unit,
                const DiffusionCoefficient& slope) {
   columns.push_back(single(name, unit, slope.value, slope.error));
@@ -139,8 +139,8 @@ void leave_out(Results& results, const std::string& what, const std::string& why
   results.provenance.emplace_back("left_out_" + what, why);
 }
 
-/// Some tables are measured for the sake of others. The summary is always there, and so are the numbers that columns of
-/// other tables are counted by, such as wave numbers.
+/// Removes tables that were computed only because others need them. The summary always stays, and so do tables of the
+/// numbers that index the columns of a chosen table, such as wave numbers.
 void keep_wanted(Results& results, const TableChoice& wanted, int dimension) {
   const std::vector<Observable> all = observables(dimension);
   const auto is_counted_by = [](const Observable& other, const std::string& name) {
@@ -157,7 +157,7 @@ void keep_wanted(Results& results, const TableChoice& wanted, int dimension) {
   });
 }
 
-/// What there is of more than one frame, besides tables.
+/// Adds what follows from the motion between frames, apart from the tables that results_of has already filled.
 void add_motion(const RunAnalysis& run, const TableChoice& wanted, const std::vector<double>& times,
                 Results& results) {
   const Displacements& found = run.dynamics->displacements;
@@ -175,7 +175,7 @@ void add_motion(const RunAnalysis& run, const TableChoice& wanted, const std::ve
         "not_judged", "equilibration and relaxation: the samples are not evenly spaced in time");
 }
 
-/// Beside the file, with its name.
+/// The folder stands beside the file and has its name without the extension.
 std::filesystem::path csv_folder(const std::filesystem::path& results) {
   if (!results.has_extension()) return results.string() + "_tables";
   return std::filesystem::path(results).replace_extension();
@@ -185,7 +185,7 @@ std::filesystem::path csv_file(const std::filesystem::path& results, const std::
   return csv_folder(results) / (table + ".csv");
 }
 
-/// Names the units of a file of another program in the columns of its tables.
+/// Puts the names of units that a file of another program states into the columns of its tables.
 void put_into_units(Results& results, const FileUnits& units) {
   const auto put = [](std::string& unit, const std::string& quantity, const std::string& name) {
     if (const std::size_t place = unit.find(quantity); place != std::string::npos)
@@ -275,7 +275,7 @@ double AnalysedRun::packing_fraction() const {
 
 std::uint64_t AnalysedRun::seed() const {
   const std::string seed = results.text("seed");
-  return std::strtoull(seed.c_str(), nullptr, 10);  // 0 of a text that is no number
+  return std::strtoull(seed.c_str(), nullptr, 10);  // 0 if the text is no number
 }
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
@@ -319,9 +319,10 @@ std::vector<std::string> former_tables(const std::filesystem::path& file) {
   try {
     tables = stored_tables(file);
   } catch (const FileError&) {
-    // no file of ours
+    // The file is not one that vitrel wrote, which is refused below.
   }
-  // Correlations on the fly are tables in such a file, too, but nothing can make them again.
+  // A file of correlations on the fly has such tables too, but no analysis could restore it, so it is not
+  // overwritten.
   const bool is_analysis = std::ranges::any_of(
       tables, [](const std::string& name) { return name == "summary" || name == "runs"; });
   if (!is_analysis)
@@ -350,12 +351,13 @@ Json analysis_summary(const AnalysedRun& run) {
     if (!column.error.empty()) summary[column.name + "_error"] = column.error.front();
   }
   if (run.glass) summary.update(glass_summary(*run.glass));
-  if (run.results.text("seed").empty()) summary.erase("seed");  // of another program
+  // Files of other programs have no seed.
+  if (run.results.text("seed").empty()) summary.erase("seed");
   return summary;
 }
 
 std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& provenance) {
-  if (provenance.version.empty()) return {};  // of another program
+  if (provenance.version.empty()) return {};  // the file comes from another program
   std::vector<std::pair<std::string, std::string>> rows = {
       {"version", provenance.version},
       {"commit", provenance.commit},

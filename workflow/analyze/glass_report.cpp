@@ -28,7 +28,7 @@ const char* name_of(DiffusionVerdict verdict) {
   return diffusion_names[static_cast<std::size_t>(verdict)];
 }
 
-/// What the diffusion coefficient says to φ_c, after it.
+/// Says whether the diffusion coefficient agrees with φ_c; the text is appended to that of φ_c.
 std::string diffusion_text(const StudiedLaw& studied) {
   if (studied.diffusion == DiffusionVerdict::untested) return "";
   return fmt::format("; {} {}", studied.kind == GlassKind::translation ? "1/D" : "1/D_r",
@@ -45,7 +45,7 @@ std::string law_text(const StudiedLaw& studied) {
                      diffusion_text(studied));
 }
 
-/// Kinds with what each law says of them; one line where both say the same.
+/// One line for each kind of motion and law, or one for both laws where they say the same.
 std::vector<std::string> law_lines(const GlassStudy& study) {
   std::vector<std::string> lines;
   for (std::size_t k = 0; k < study.laws.size(); ++k) {
@@ -61,7 +61,7 @@ std::vector<std::string> law_lines(const GlassStudy& study) {
   return lines;
 }
 
-/// The densities of the runs of which something is true, each once.
+/// The packing fractions of the runs for which the predicate holds, each listed once.
 std::string densities_where(const GlassStudy& study, auto&& predicate) {
   std::string text;
   std::string last;
@@ -74,7 +74,7 @@ std::string densities_where(const GlassStudy& study, auto&& predicate) {
   return text;
 }
 
-/// What keeps orientations, a sentence each.
+/// Sentences that say at which packing fractions order or glass keeps the orientations.
 std::vector<std::string> order_or_glass(const GlassStudy& study) {
   std::vector<std::string> sentences;
   const auto say = [&](const char* sentence, const std::string& densities) {

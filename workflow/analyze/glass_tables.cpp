@@ -23,7 +23,7 @@ double number(auto code) {
 constexpr const char* kinds_text =
     "kind: of tau_alpha (translation) or tau_2 (rotation; in the nematic of its connected part)";
 
-/// A column of codes.
+/// A column whose values are codes with these labels.
 template <std::size_t Count>
 Column codes(const char* name, const std::array<std::string_view, Count>& labels) {
   return {name, "1", {}, {}, {labels.begin(), labels.end()}};
@@ -173,9 +173,9 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
     const Column& found = column(table, name_of_column);
     return found.error.empty() ? unknown : found.error.front();
   };
-  // Every version stores τ_α relative to the cage here, older ones nowhere else.
+  // Every version stores τ_α relative to the cage in this table; older versions store it nowhere else.
   const auto cage_time = [&]() -> std::optional<RelaxationTime> {
-    constexpr double relative_to_cage = 4;  // its kind in relaxation_tables.h
+    constexpr double relative_to_cage = 4;  // this kind in relaxation_tables.h
     const Table* times = results.find("relaxation_times");
     if (!times) return std::nullopt;
     const std::vector<double>& kinds = column(*times, "kind").value;

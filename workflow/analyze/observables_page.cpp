@@ -27,7 +27,7 @@ std::string column_text(const ColumnKind& column) {
                      column.what);
 }
 
-/// The lines of a table, in the plane, in space or, if `where` is empty, in both.
+/// The description of a table. `where` says that it holds in the plane or in space only; empty if in both.
 std::string lines(const Observable& observable, const std::string& where) {
   std::string items;
   if (!observable.also.empty())
@@ -47,7 +47,7 @@ const Observable* listed(const std::vector<Observable>& all, const std::string& 
   return found == all.end() ? nullptr : &*found;
 }
 
-/// In the plane, beside the same table in space if there is one.
+/// The section of a table of the plane, with the table of the same name in space if there is one.
 std::string section(const Observable& plane, const Observable* space) {
   if (!space) return heading(plane) + lines(plane, "In the plane: ");
   const std::string here = lines(plane, ""), there = lines(*space, "");

@@ -4,8 +4,7 @@
 
 namespace vitrel {
 
-/// All tables of `vitrel analyze` as Markdown (docs/observables.md): what they are, what they need of a run, and
-/// the charts of the report page.
+/// All tables of `vitrel analyze` as Markdown (docs/observables.md): what they contain and what they need of a run.
 std::string observables_page();
 
 }  // namespace vitrel

@@ -7,7 +7,7 @@
 namespace vitrel {
 namespace {
 
-/// `middle_axis` and `short_axis` are of the orientations of scalene ellipsoids.
+/// `middle_axis` and `short_axis` are orientations of scalene ellipsoids.
 enum class Kind { self_scattering, orientation, middle_axis, short_axis, relative_to_cage };
 
 constexpr Kind orientation_of_axis[] = {Kind::orientation, Kind::middle_axis, Kind::short_axis};
@@ -33,7 +33,7 @@ Table empty_table() {
        {"most", "time"}}};
 }
 
-/// Appends rows and reasons.
+/// Appends rows to the table, and to the provenance the reasons why rows have no time.
 class RelaxationRows {
  public:
   RelaxationRows(const Displacements& found, Results& results) : found_(found), results_(results) {}

@@ -17,14 +17,14 @@ void begin(const AnalysisProgress& progress, const char* phase) {
   if (progress.begin) progress.begin(phase);
 }
 
-/// Whether tables are asked for that need more than single frames.
+/// Whether any requested table needs more than single frames.
 bool wants_motion(const TableChoice& wanted) {
   return wanted.has({"summary", "displacements", "self_scattering", "orientation", "cage_relative",
                      "collective_scattering", "wave_numbers", "susceptibility", "ageing",
                      "waiting_times", "relaxation", "relaxation_times", "viscosity"});
 }
 
-/// The short part first: it refuses wave numbers that do not fit into the box.
+/// Collective scattering comes first: it is short and refuses wave numbers that do not fit into the box.
 template <int Dim>
 RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOptions options,
                              const TableChoice& wanted, const AnalysisProgress& progress) {
@@ -54,7 +54,7 @@ RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOption
   return dynamics;
 }
 
-/// What else there is of the motion between frames.
+/// Measures velocity correlations and functions of two times; measure_dynamics does the rest of the motion.
 template <int Dim>
 RunMotion measure_motion(TrajectoryFile<Dim>& trajectory, const Parameters& parameters,
                          const TableChoice& wanted, const AnalysisProgress& progress) {
@@ -80,21 +80,21 @@ RunMotion measure_motion(TrajectoryFile<Dim>& trajectory, const Parameters& para
   return motion;
 }
 
-/// The coefficient of a mean squared displacement or rotation in this number of dimensions.
+/// The coefficient from the long-time slope of a mean squared displacement or rotation with `dimension` components.
 DiffusionCoefficient long_time_diffusion(const Displacements& found, const Correlation& square,
                                          int dimension, const std::vector<double>& times) {
   const double duration = evenly_spaced(times) ? times.back() - times.front() : 0;
   return diffusion_coefficient({found.lag, square.value, square.error, duration}, dimension);
 }
 
-/// NaN if the file does not say.
+/// Returns NaN if the file does not store collisions.
 double collisions_between_frames(const TrajectoryReader& reader) {
   if (!reader.has_observable("collisions")) return unknown;
   const std::vector<double> collisions = reader.observable("collisions");
   return collisions.back() - collisions.front();
 }
 
-/// Judged, if the run can be.
+/// Returns the judged run, or no value if the run lacks the data.
 template <int Dim>
 std::optional<GlassRun> measure_glass(TrajectoryFile<Dim>& trajectory, const std::string& name,
                                       const RunAnalysis& run, const Parameters& parameters,
@@ -117,8 +117,8 @@ std::optional<GlassRun> measure_glass(TrajectoryFile<Dim>& trajectory, const std
   return judge_glass_run(*data);
 }
 
-/// A time in which the stress decays: particles have moved by a unit of length, which in a liquid is out of their
-/// cages, and have collided ten times each.
+/// A time within which the stress decays: by then particles have moved by a unit of length, which takes them out of
+/// their cages in a liquid, and each has collided ten times.
 double stress_relaxation_time(const RunAnalysis& run) {
   const Displacements& found = run.dynamics->displacements;
   const std::vector<double>& square = found.groups.front().translation.value;
@@ -133,7 +133,7 @@ template <int Dim>
 std::optional<Viscosity> measure_viscosity(TrajectoryFile<Dim>& trajectory, const RunAnalysis& run,
                                            const TimeAxisOptions& axis) {
   const auto moments = helfand_moments(trajectory.reader());
-  // A file of another program may have moments without energies, and one particle has no temperature.
+  // A file of another program may have moments without energies, and a single particle has no temperature.
   if (moments.empty() || run.energy.time.empty() || run.particles < 2) return std::nullopt;
   const Configuration<Dim>& state = trajectory.read(0);
   const double temperature = mean_temperature(run.energy, run.particles, run.rotations, Dim);
@@ -150,7 +150,7 @@ DiffusionCoefficient rotational_diffusion(const Displacements& found, std::size_
   return long_time_diffusion(found, found.groups.front().rotation, rotations, times);
 }
 
-/// What of a single configuration stands in the summary, in space.
+/// Columns of the summary that describe a single configuration; only three dimensions have some.
 std::vector<Column> state_columns(const Configuration2&) {
   return {};
 }
@@ -167,7 +167,7 @@ std::vector<Column> state_columns(const Configuration3& state) {
           {"isotropic_ratio_deviation", "1", {isotropic.standard_deviation}}};
 }
 
-/// Smooth, if the file does not say.
+/// Contacts are taken to be smooth if the file does not record them.
 Contacts recorded_contacts(const TrajectoryReader& reader) {
   const std::string recorded = reader.provenance().parameters;
   if (recorded.empty()) return Contacts::smooth;

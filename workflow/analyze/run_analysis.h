@@ -13,22 +13,22 @@
 
 namespace vitrel {
 
-/// All that is measured, before it is put into tables.
+/// All measurements of a run, before they are put into tables.
 struct RunAnalysis {
   std::size_t particles, rotors, rotations, frames;
   double packing_fraction, duration, collisions;
-  std::vector<Column> state;            ///< of the last frame, for the summary
-  std::string obstacle;                 ///< to saying anything about motion, if there is one
-  std::optional<RunDynamics> dynamics;  ///< otherwise
-  std::optional<RunMotion> motion;      ///< likewise
+  std::vector<Column> state;            ///< columns of the summary that describe the last frame
+  std::string obstacle;                 ///< why motion cannot be measured; empty if it can
+  std::optional<RunDynamics> dynamics;  ///< none if there is an obstacle or no table needs them
+  std::optional<RunMotion> motion;      ///< none if there is an obstacle
   EnergySeries energy;
   CompressibilitySeries compressibility;
-  DiffusionCoefficient diffusion, rotational_diffusion;  ///< of all particles
+  DiffusionCoefficient diffusion, rotational_diffusion;  ///< averages over all particles
   FrameResults structure;
   std::optional<GlassRun> glass;
 };
 
-/// Measures what the tables that are wanted need, in the run of this name.
+/// Measures what the `wanted` tables need. `name` is the name of the run.
 template <int Dim>
 RunAnalysis run_analysis(TrajectoryFile<Dim>& trajectory, const std::string& name,
                          const Parameters& parameters, const TableChoice& wanted,

@@ -16,7 +16,7 @@ using KindOfLaw = Distribution::Kind;
 
 constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform", "power_law"};
 
-/// Rounding of shapes that were computed from ratios and sizes, and of numbers typed with ten digits.
+/// Allows for the rounding of shapes that were computed from ratios and sizes, and of numbers typed with ten digits.
 constexpr double slack = 1e-9;
 
 }  // namespace

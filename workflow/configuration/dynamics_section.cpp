@@ -38,7 +38,7 @@ void describe_material(MaterialParameters& p, FieldVisitor& visit) {
            p.dissipative_time, 0);
 }
 
-/// Whether contacts at the thermal speed are such that coefficients can be had.
+/// Requires that contacts at the thermal speed have coefficients of restitution.
 void validate_impact(const ContactParameters& p, const Rules& rules) {
   const bool is_dashpot = p.law == ContactParameters::Law::linear_dashpot;
   const ContactScales scales = thermal_scales(p);
@@ -81,8 +81,8 @@ void validate_materials(const Parameters& parameters) {
   }
 }
 
-/// The time between two collisions of a particle of size 1, right within a factor of ten or so. It is infinite if all
-/// particles are at rest.
+/// The time between two collisions of a particle of size 1, correct within a factor of about ten. It is infinite if
+/// all particles are at rest.
 double time_between_collisions(const Parameters& parameters) {
   double fastest = 0;
   for (const Species& species : parameters.species)
@@ -230,7 +230,7 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
                  });
 }
 
-/// The number of events, and the resolution of times in doubles, are bounded.
+/// Limits the collisions and the steps of a run, so that doubles still resolve its times.
 void validate_times(const Parameters& parameters) {
   constexpr double max_flights = 1e10, max_steps = 1e12;
   const DynamicsParameters& p = parameters.dynamics;

@@ -27,7 +27,7 @@ NormalRestitution normal_restitution(const RestitutionParameters& p) {
   return {};
 }
 
-/// The keys that a pair does not give are those of all pairs.
+/// The law of a pair of species. Keys that the pair does not give come from those of all pairs.
 ContactLaw contact_law(const DynamicsParameters& all, const PairLawParameters& pair) {
   return {normal_restitution(pair.restitution.value_or(all.restitution)),
           pair.friction.value_or(all.friction),

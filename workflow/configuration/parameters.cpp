@@ -38,7 +38,7 @@ Parameters read(const TomlNode& root) {
   Parameters parameters;
   collect_places(root, "", parameters.given);
   read_parameters(root, fields(parameters), [&] {
-    // What tells the relaxation times that end the run.
+    // Correlations on the fly measure the relaxation times that end the run.
     if (parameters.dynamics.relaxation_times && !parameters.output.correlations)
       parameters.output.correlations.emplace();
     validate(parameters);
@@ -46,7 +46,7 @@ Parameters read(const TomlNode& root) {
   return parameters;
 }
 
-/// The value of a key of a table; null if there is none, or the node is no table.
+/// Finds the value of a key in a table. Returns null if the table has no such key, or if the node is no table.
 TomlNode* find(TomlNode* node, const std::string& key) {
   auto* entries = node ? node->get<TomlNode::Table>() : nullptr;
   if (!entries) return nullptr;
@@ -54,21 +54,21 @@ TomlNode* find(TomlNode* node, const std::string& key) {
   return found == entries->end() ? nullptr : &found->node;
 }
 
-/// The same; a missing key of a table is made.
+/// Finds the value of a key as above, and adds the key with this value to the table if it is missing.
 TomlNode* find_or_make(TomlNode* node, const std::string& key, const TomlNode& value) {
   auto* entries = node ? node->get<TomlNode::Table>() : nullptr;
   if (entries && !find(node, key)) entries->push_back({key, value.where, value});
   return find(node, key);
 }
 
-/// The default method places particles.
+/// A stage without a method has the default method, which places particles.
 bool places_particles(const TomlNode& stage) {
   const TomlEntry* method = stage.find("method");
   const std::string* name = method ? method->node.get<std::string>() : nullptr;
   return !name || vitrel::places_particles(*name);
 }
 
-/// Whether the last of the stages that change the density ends at a pressure.
+/// Whether the last of the stages that change the packing fraction ends at a pressure.
 bool end_at_a_pressure(const TomlNode::Array& stages) {
   for (auto found = stages.rbegin(); found != stages.rend(); ++found) {
     const TomlNode& stage = *found;
@@ -82,7 +82,8 @@ bool end_at_a_pressure(const TomlNode::Array& stages) {
   return false;
 }
 
-/// The density of a state that was prepared up to a pressure is its own.
+/// A state that was prepared up to a pressure has a packing fraction of its own, so that of the parameters is
+/// dropped.
 void forget_packing_fraction(TomlNode& root) {
   TomlNode* system = find(&root, "system");
   if (auto* entries = system ? system->get<TomlNode::Table>() : nullptr)
@@ -94,7 +95,7 @@ void apply_start(TomlNode& root, const StartFile& start) {
   TomlNode* prepare = find_or_make(&root, "prepare", {TomlNode::Table(), where});
   TomlNode* list = find_or_make(prepare, "stage", {TomlNode::Array(), where});
   auto* stages = list ? list->get<TomlNode::Array>() : nullptr;
-  if (!stages) return;  // refused when it is read
+  if (!stages) return;  // reading the parameters refuses it
   if (end_at_a_pressure(*stages) && !start.keeps_moves) forget_packing_fraction(root);
   if (!stages->empty() && places_particles(stages->front()))
     stages->erase(stages->begin(), start.keeps_moves ? stages->begin() + 1 : stages->end());
@@ -106,7 +107,7 @@ void apply_start(TomlNode& root, const StartFile& start) {
   stages->insert(stages->begin(), {std::move(table), where});
 }
 
-/// Files that the document names lie beside it.
+/// The document names files relative to its own folder.
 void resolve_state_files(TomlNode& root, const std::filesystem::path& folder) {
   TomlNode* list = find(find(&root, "prepare"), "stage");
   auto* stages = list ? list->get<TomlNode::Array>() : nullptr;
@@ -258,7 +259,8 @@ std::optional<std::string> place_of(const Parameters& parameters, const std::str
   const auto found = parameters.given.lower_bound(key);
   if (found == parameters.given.end()) return std::nullopt;
   const std::string& first = found->first;
-  // Nothing sorts between a key and those below it: keys are of letters, digits and '_', above '.'.
+  // A key is followed directly by the keys below it, since all other characters of keys (letters, digits, '_') sort
+  // after '.'.
   const bool fits = first == key || first.starts_with(key + ".");
   return fits ? std::optional(found->second) : std::nullopt;
 }
@@ -336,14 +338,14 @@ Parameters continued(Parameters parameters, const Parameters& recorded) {
 
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
                                                     const std::string& after, Work work) {
-  // As this version would have recorded it: with its keys, and the defaults of those that are new.
+  // The recorded parameters as this version would have recorded them: with its keys, and with defaults for new ones.
   const Parameters recorded = recorded_parameters(before, "recorded parameters");
   const bool is_longer =
       parse_parameters(after, "parameters").dynamics.duration > recorded.dynamics.duration;
   return first_difference(
       effective_parameters(recorded), after, [work, is_longer](const std::string& key) {
         if (key == "output.checkpoint_interval" || key == "prepare.quality_sweeps") return true;
-        // The state is read at the start only, and may be elsewhere now, or gone.
+        // The file of the state is read at the start only; later it may be elsewhere or gone.
         if (key == "prepare.stage.0.file") return true;
         if (key.starts_with("dynamics.duration") && is_longer) return true;
         return key.starts_with("analysis.") ||

@@ -10,30 +10,30 @@
 #include "workflow/rules.h"
 
 /// @file
-/// The sections of the parameter file. For each there is a function that names its fields with their bounds, and one
-/// that throws BadValue for values that do not suit each other.
+/// The sections of the parameter file. Each has a function that describes its fields with their bounds, and one that
+/// throws BadValue for values that do not suit each other.
 namespace vitrel {
 
-/// The fields of `part`, as `describe` names them.
+/// Binds `part` to the function `describe`, which describes its fields.
 FieldVisitor::Inside section_of(auto& part, auto describe) {
   return [&part, describe](FieldVisitor& visit) { describe(part, visit); };
 }
 
 void describe_system(SystemParameters& p, FieldVisitor& visit);
-/// But for the packing fraction, whose bound depends on the species.
+/// Validates all but the packing fraction, whose bound depends on the species.
 void validate_system(const SystemParameters& p);
 
 void describe_species(Species& p, FieldVisitor& visit);
 void validate_species(const std::vector<Species>& species, int dimension);
 Species default_species();
-/// Whether all its particles are disks or spheres.
+/// Whether all particles of the species are disks or spheres.
 bool is_round(const Species& p);
 
-/// The packing fraction that no arrangement of these particles exceeds, as far as that is known:
+/// The packing fraction that no arrangement of these particles exceeds, as far as a bound is known:
 ///
-/// - Ellipses of equal area A, whatever their aspect ratios: π/√12. For ellipses that do not overlap lie in as many
-///   convex polygons that do not overlap and have six sides on average (fejestoth1950), and a polygon of n sides around
-///   an ellipse has at least the area (A/π) n tan(π/n), convex in n.
+/// - Ellipses of equal area A, whatever their aspect ratios: π/√12. Ellipses that do not overlap lie in as many
+///   convex polygons that do not overlap and have six sides on average (fejestoth1950), and a polygon of n sides
+///   around an ellipse has at least the area (A/π) n tan(π/n), which is convex in n.
 /// - Equal spheres: π/√18 (hales2005).
 /// - All others: 1. Small disks or spheres fill the holes between large ones, and crystals of ellipsoids are denser
 ///   than those of spheres: 0.7707 at the aspect ratio √3 (donev2004).
@@ -42,25 +42,25 @@ bool is_round(const Species& p);
 PackingBound packing_bound(const std::vector<Species>& species, int dimension);
 
 struct SpeciesNameConflict {
-  std::size_t species;    ///< the later one of two
+  std::size_t species;    ///< the later one of the two
   std::string complaint;  ///< completes "its name …"
 };
 
-/// Tables and columns of results are called after species (identifier, results.h). Two species that
-/// would share them, or one that would take those of something else, are a conflict.
+/// Tables and columns of results are named after species (identifier, results.h). Returns a conflict if two species
+/// would share such a name, or if a species would take a name that is used otherwise.
 std::optional<SpeciesNameConflict> species_name_conflict(const std::vector<std::string>& names);
 
-/// The words for FreeRotation.
+/// Names of the values of FreeRotation in the parameter file.
 inline constexpr const char* rotation_names[] = {"euler", "constant"};
 
 void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit);
-/// The laws of contact of hard particles, and what drives them.
+/// Describes the contact laws of hard particles, and the driving.
 void describe_collisions(DynamicsParameters& p, FieldVisitor& visit);
 void validate_collisions(const Parameters& parameters);
 void describe_contact(ContactParameters& p, FieldVisitor& visit);
 void describe_materials(ContactParameters& p, FieldVisitor& visit);
 void validate_times(const Parameters& parameters);
-/// The contact law of soft particles, which the species and the dynamics must fit.
+/// Validates the contact law of soft particles, together with the species and the dynamics, which must suit it.
 void validate_contact(const Parameters& parameters);
 
 void describe_output(OutputParameters& p, FieldVisitor& visit);

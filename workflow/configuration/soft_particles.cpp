@@ -36,7 +36,7 @@ Kinds kinds_of(const Configuration<Dim>& configuration,
   return kinds;
 }
 
-/// All kinds, or if there are many, some that are spread over all radii.
+/// All kinds or, if there are many, a selection that is spread over all radii.
 std::vector<KindOfSphere> some_of(const Kinds& all) {
   constexpr std::size_t enough = 32;
   const std::vector<KindOfSphere> sorted(all.begin(), all.end());
@@ -55,7 +55,7 @@ std::vector<ContactPair> pairs_of(const Kinds& some, const Kinds& others) {
   return pairs;
 }
 
-/// Empty if the user has none.
+/// The path is empty if the user has no such folder.
 fs::path cache_folder() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
     return fs::path(cache) / "vitrel";
@@ -67,7 +67,7 @@ fs::path cache_folder() {
 fs::path table_file(const ForceForm& form, const RestitutionDomain& domain) {
   const fs::path folder = cache_folder();
   if (folder.empty()) return {};
-  std::error_code none;  // whatever is wrong shows when the table is saved
+  std::error_code none;  // saving the table reports any error
   fs::create_directories(folder, none);
   return folder / fmt::format("{}_{:.6g}_{:.6g}_{:.6g}_{:.6g}.h5", form.name, domain.m.low,
                               domain.m.high, domain.d.low, domain.d.high);
@@ -85,7 +85,7 @@ RestitutionTable table_for(const ForceForm& form, const RestitutionDomain& domai
   return std::move(kept.table);
 }
 
-/// `force` is in units of the run.
+/// `force` is in the units of the run.
 template <ContactForce Force>
 RestitutionTable table_of(const Force& force, const std::vector<ContactPair>& pairs, int threads,
                           const Log& log) {
@@ -107,7 +107,8 @@ std::shared_ptr<SoftContact> contact_by(const Force& force,
       force, TabulatedRestitution(form, table_of(force, pairs, threads, log)));
 }
 
-/// `use(member)` for the member that is the force of the law; `use(force)` for that force.
+/// with_force_member calls `use` with a pointer to the member that holds the force of the law, with_force with the
+/// force.
 auto with_force_member(const ContactParameters& p, auto&& use) {
   return p.law == ContactParameters::Law::linear_dashpot ? use(&ContactParameters::linear_dashpot)
                                                          : use(&ContactParameters::viscoelastic);
@@ -129,7 +130,7 @@ std::string head_on_text(const ContactParameters& p) {
                      p.thermal_speed, head_on.duration * scales.time, -head_on.rate);
 }
 
-/// The parameters of every species.
+/// The contact parameters of every species.
 std::vector<ContactParameters> contacts_by_species(const Parameters& parameters) {
   const ContactParameters& all = parameters.dynamics.contact.value();
   std::vector<ContactParameters> contacts(parameters.species.size(), all);
@@ -208,7 +209,7 @@ PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact(const Parameters& para
     std::vector<Kinds> kinds;
     for (std::size_t k = 0; k < of.size(); ++k) {
       kinds.push_back(kinds_of(configuration, k));
-      if (kinds[k].empty()) kinds[k].insert({1, 1});  // a species of so few that it has no particle
+      if (kinds[k].empty()) kinds[k].insert({1, 1});  // a species so rare that no particle has it
     }
     PairsOfSpecies<std::shared_ptr<SoftContact>> contacts(of.size(), nullptr);
     for (std::size_t i = 0; i < of.size(); ++i)

@@ -11,61 +11,61 @@
 #include "workflow/log.h"
 
 /// @file
-/// From the parameters of soft particles to their contacts in a run.
+/// The contacts of soft particles in a run, from the parameters.
 namespace vitrel {
 
 class RestitutionTable;
 
-/// Contacts that coefficients can be had of: c_dis at most, l/X at least. Beyond, nothing is left of the speed, or the
-/// particles pass through each other.
+/// Limits within which contacts have coefficients of restitution: the largest c_dis and the smallest l/X. Beyond
+/// them, the impact leaves nothing of the speed, or the particles pass through each other.
 inline constexpr double max_scaled_damping = 1e5, min_scaled_distance = 0.01;
 
-/// What the units of the run are in SI units.
+/// The units of the run in SI units.
 struct UnitsOfRun {
-  double length;  ///< m: the radius of a particle of size 1
-  double mass;    ///< kg: its mass
-  double time;    ///< s: length over thermal speed
+  double length;  ///< in m: the radius of a particle of size 1
+  double mass;    ///< in kg: its mass
+  double time;    ///< in s: length over thermal speed
 };
 UnitsOfRun units_of_run(const ContactParameters& parameters);
 
 /// The scales of an impact of two particles of size 1 that meet head-on at the thermal speed.
 ContactScales thermal_scales(const ContactParameters& parameters);
 
-/// The same at any speed, m/s, of any pair in SI units.
+/// The scales of an impact of any pair, given in SI units, at any speed in m/s.
 ContactScales contact_scales(const ContactParameters& parameters, const ContactPair& pair,
                              double speed);
 ForceForm form_of_law(const ContactParameters& parameters);
-/// F_n in N, as of contact_force.h.
+/// The normal force F_n in N (contact_force.h).
 double contact_force(const ContactParameters& parameters, const ContactPair& pair,
                      double compression, double rate);
 
-/// The law, the units, and what becomes of two particles of size 1 that meet head-on at the thermal
-/// speed, in lines for a person.
+/// Describes in lines of text the law, the units, and the result of a head-on impact of two particles of size 1 at
+/// the thermal speed.
 std::string contact_text(const ContactParameters& parameters);
 
-/// As those of all, but of this material.
+/// The parameters for a material: those of all species, except for the values that the material gives.
 ContactParameters of_material(const ContactParameters& all, const MaterialParameters& material);
 
-/// In units of the run.
+/// Radius and mass of a sphere in units of the run.
 struct KindOfSphere {
   double radius, mass;
 
   auto operator<=>(const KindOfSphere&) const = default;
 };
 
-/// The relative speeds that a table covers, in thermal speeds: beyond are 10⁻⁹ of the impacts of a gas, and those of
-/// one that has cooled for long.
+/// The range of relative speeds that a table covers, in thermal speeds. Beyond it lie 10⁻⁹ of the impacts of a gas,
+/// and the impacts of a gas that has cooled for long.
 inline constexpr double slowest_tabulated = 1e-5, fastest_tabulated = 20;
 
-/// The coefficients of all pairs of these kinds. The table is kept in $XDG_CACHE_HOME/vitrel (~/.cache/vitrel) and
-/// made if it is not there; `log` gets a line if so. Its tolerance is 1e-8, or 1e-6 if pairs damp differently and
-/// there is one more variable.
+/// The table of the coefficients of all pairs of these kinds. It is cached in $XDG_CACHE_HOME/vitrel
+/// (~/.cache/vitrel). If it is not there, it is computed, and `log` receives a line. Its tolerance is 1e-8, or 1e-6
+/// if pairs differ in their damping, which adds a variable.
 RestitutionTable restitution_table(const ContactParameters& parameters,
                                    const std::set<KindOfSphere>& kinds, int threads,
                                    const Log& log);
 
-/// For particles of these radii and masses, by such a table unless all contacts are integrated; where materials differ,
-/// by a table for each pair of species. Of parameters with [dynamics.contact].
+/// The contacts of particles with these radii and masses: by a restitution_table, or integrated if the parameters say
+/// so. If materials differ, there is a table for each pair of species. The parameters must have [dynamics.contact].
 template <int Dim>
 PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact(const Parameters& parameters,
                                                           const Configuration<Dim>& configuration,

@@ -82,7 +82,8 @@ std::vector<Distribution> ratios(const Species& species, int dimension) {
                      species.aspect_ratio.value_or(constant(1)));
 }
 
-/// a b, or a b c, of all particles of the species; nothing if they differ in it.
+/// The product a b (a b c in space) that all particles of the species share; no value if it differs between
+/// particles.
 std::optional<double> semi_axis_product(const Species& species, int dimension) {
   if (species.semi_axes) return constant_product(*species.semi_axes);
   const auto all = static_cast<std::size_t>(dimension);

@@ -17,7 +17,7 @@
 namespace vitrel {
 namespace {
 
-/// The semi-axes of a species whose particles are all alike.
+/// The semi-axes of a species with a single shape.
 template <int Dim>
 Vec3 half_lengths_of(Species species) {
   species.fraction = 1;
@@ -30,7 +30,7 @@ const StateStage& start_of(const Parameters& parameters) {
   return *start_state(parameters.stages);
 }
 
-/// How messages call the state.
+/// The name of the state in messages.
 std::string name_of(const Parameters& parameters) {
   const StateStage& stage = start_of(parameters);
   return stage.file ? *stage.file : place_of(parameters, "prepare.stage.0").value_or("the state");
@@ -80,7 +80,7 @@ void refuse_overlaps(const Configuration<Dim>& state, const std::string& file) {
       contact_scale(state, *deepest)));
 }
 
-/// Those of the [[species]], which are in the unit of the results.
+/// Species as [[species]] describes them, with lengths in the unit of the results.
 std::vector<KnownSpecies> known_species(const Parameters& parameters) {
   std::vector<KnownSpecies> known;
   if (!place_of(parameters, "species")) return known;
@@ -94,7 +94,7 @@ std::vector<KnownSpecies> known_species(const Parameters& parameters) {
   return known;
 }
 
-/// Those of [[import.species]], which are in the unit of the file.
+/// Adds the species of [[import.species]], whose lengths are in the unit of the file.
 void add_imported(std::vector<KnownSpecies>& known, const ImportOptions& import) {
   for (const ImportOptions::Kind& kind : import.species) {
     auto one = std::ranges::find(known, kind.name, &KnownSpecies::name);

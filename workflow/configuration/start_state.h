@@ -7,25 +7,26 @@
 #include "workflow/log.h"
 
 /// @file
-/// States that a preparation or a run starts from (stages/state_stage.h).
+/// States from which a preparation or a run starts (stages/state_stage.h).
 namespace vitrel {
 
-/// What the parameters say that a file may lack: the dimension if it is given, the box of the stage, and species whose
-/// particles are all alike.
+/// What the parameters know about a system that a file may not state: the dimension if it is given, the box of the
+/// import or of the stage, and species with a single shape.
 KnownSystem known_system(const Parameters& parameters);
 
-/// The dimension of the state to start from.
+/// The dimension of the state from which the preparation or run starts.
 int start_dimension(const Parameters& parameters);
 
-/// The state to start from. Dimension, number, box and species of `parameters` become its own, and, unless a stage
-/// changes it, the packing fraction. What the parameters give must agree with it in the digits given; otherwise UserError,
-/// with the place of the key. FileError if the file is unreadable; InvariantError if particles overlap, unless they are
-/// to be shrunk, or allowed and no stage follows.
+/// Reads the state to start from. The dimension, number, box and species of `parameters` become those of the state,
+/// and so does the packing fraction unless a stage changes it. Values that the parameters give must agree with the
+/// state in the digits given; if not, throws UserError with the place of the key. Throws FileError if the file is
+/// unreadable, and InvariantError if particles overlap, unless they are to be shrunk, or overlaps are allowed and no
+/// stage follows.
 template <int Dim>
 Configuration<Dim> read_start(Parameters& parameters, bool overlaps_allowed, const Log& log);
 
-/// The same for the state of a checkpoint of that work. If it may have been shrunk, nothing needs to agree. `recorded`:
-/// its parameters, TOML.
+/// Takes the system of `parameters` from the state of a checkpoint in the same way. If that state may have been
+/// shrunk, nothing needs to agree with it. `recorded` are the parameters of the checkpoint as TOML.
 template <int Dim>
 void take_system(Parameters& parameters, const Configuration<Dim>& state, const std::string& file,
                  const std::string& recorded);

@@ -16,7 +16,7 @@ namespace {
 // ---- one particle -----------------------------------------------------------------------------------
 
 struct Misfit {
-  const char* key;  ///< of the species
+  const char* key;  ///< key of the species
   std::string given, found;
 };
 
@@ -92,7 +92,8 @@ std::optional<SpeciesConflict> composition_conflict(const std::vector<Species>& 
 
 using Distributions = std::vector<std::pair<const char*, std::optional<Distribution>>>;
 
-/// Those that describe the shapes of a species, with their keys; always as many, in the same order.
+/// The distributions that describe the shapes of a species, with their keys. Their number and order are the same for
+/// all species.
 Distributions distributions_of(const Species& species) {
   const auto entry = [](const auto& entries, std::size_t which) -> std::optional<Distribution> {
     if (!entries || which >= entries->size()) return std::nullopt;
@@ -108,7 +109,8 @@ Distributions distributions_of(const Species& species) {
   return all;
 }
 
-/// A distribution that differs from the one the particles were drawn from, though it would allow them.
+/// Finds a distribution that differs from the one from which the particles were drawn, even though it would allow
+/// them.
 std::optional<SpeciesConflict> distribution_conflict(const std::vector<Species>& given,
                                                      const std::vector<Species>& recorded) {
   for (std::size_t k = 0; k < given.size(); ++k) {
@@ -126,7 +128,7 @@ std::optional<SpeciesConflict> distribution_conflict(const std::vector<Species>&
 
 // ---- species of a state -----------------------------------------------------------------------------
 
-/// The recorded parameters, if there are any and they describe the particles.
+/// The recorded parameters; no value if there are none or if they do not describe the particles.
 template <int Dim>
 std::optional<Parameters> recorded_parameters(const Configuration<Dim>& state,
                                               const StateOrigin& origin) {
@@ -136,12 +138,12 @@ std::optional<Parameters> recorded_parameters(const Configuration<Dim>& state,
     if (species_conflict(recorded.species, state)) return std::nullopt;
     return recorded;
   } catch (const UserError&) {
-    // The text is that of another program, or of a version with other keys.
+    // The text comes from another program, or from a version with other keys.
     return std::nullopt;
   }
 }
 
-/// The semi-axis of all these particles, or the range of theirs.
+/// The semi-axis that all these particles share, or the range of their semi-axes.
 template <int Dim>
 Distribution range_of(const Configuration<Dim>& state, const std::vector<std::size_t>& members,
                       std::size_t axis) {
@@ -159,8 +161,8 @@ Distribution range_of(const Configuration<Dim>& state, const std::vector<std::si
   return range;
 }
 
-/// One species as its particles are: with the ranges of their semi-axes where they differ, and without a mass if
-/// theirs are natural, or differ.
+/// Describes one species by its particles. Semi-axes that differ are given as ranges. The mass is left out if the
+/// particles have their natural masses, or if their masses differ.
 template <int Dim>
 Species as_found(const Configuration<Dim>& state, std::size_t species) {
   Species found;
@@ -191,13 +193,13 @@ std::vector<Species> as_found(const Configuration<Dim>& state) {
   return species;
 }
 
-/// Those that have particles.
+/// The species that have particles.
 std::vector<Species> present(std::vector<Species> species) {
   std::erase_if(species, [](const Species& kind) { return kind.fraction == 0; });
   return species;
 }
 
-/// That of constant semi-axes, if these are given.
+/// The size of the species; if it has semi-axes, the size that follows from them when they are constant.
 std::optional<Distribution> size_of(const Species& species) {
   if (!species.semi_axes) return species.size;
   const std::optional<double> product = constant_product(*species.semi_axes);
@@ -205,7 +207,7 @@ std::optional<Distribution> size_of(const Species& species) {
   return constant(root(*product, static_cast<int>(species.semi_axes->size())));
 }
 
-/// What is given, and what is not, as in `other`.
+/// The species of the parameters, with keys that are not given taken from `other`.
 std::vector<Species> completed(const Parameters& parameters, const std::vector<Species>& other) {
   std::vector<Species> species = parameters.species;
   for (std::size_t k = 0; k < std::min(species.size(), other.size()); ++k) {
@@ -218,7 +220,7 @@ std::vector<Species> completed(const Parameters& parameters, const std::vector<S
   return species;
 }
 
-/// The sides of the box over the first one; one number if they are equal.
+/// The other sides of the box over the first one; a single number if they are equal.
 template <int Dim>
 std::vector<double> box_aspect_of(const Vec<Dim>& lengths) {
   std::vector<double> ratios;

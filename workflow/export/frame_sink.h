@@ -9,7 +9,7 @@
 
 namespace vitrel {
 
-/// A frame of a trajectory, and its place there.
+/// A frame with its place in the trajectory.
 template <int Dim>
 struct StoredFrame {
   std::uint64_t index;  ///< counted from 0
@@ -17,14 +17,14 @@ struct StoredFrame {
   const Configuration<Dim>& configuration;
 };
 
-/// What the file to be exported has beside positions and orientations.
+/// What the exported file stores besides positions and orientations.
 struct StoredMotion {
   bool velocities = false;
   bool angular_velocities = false;
 };
 
-/// A file of another format that frames are written to, one after the other. Without `close` it is
-/// not complete. Throws FileError.
+/// A file of another format to which frames are written one after the other. The file is complete only after `close`.
+/// Throws FileError.
 template <int Dim>
 class FrameSink {
  public:
@@ -33,12 +33,12 @@ class FrameSink {
   virtual void close() = 0;
 };
 
-/// A file to be written from start to end, whose every failure is a FileError.
+/// A file that is written from start to end. Every failure throws FileError.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& path);
   void write(std::string_view bytes);
-  /// Overwrites the first bytes.
+  /// Overwrites the beginning of the file.
   void write_at_start(std::string_view bytes);
   void close();
   std::uint64_t size() const { return size_; }
@@ -51,7 +51,7 @@ class OutputFile {
   std::uint64_t size_ = 0;
 };
 
-/// A file of one text. Throws FileError.
+/// Writes a file that consists of one text. Throws FileError.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace vitrel

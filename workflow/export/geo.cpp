@@ -11,9 +11,9 @@
 namespace vitrel {
 namespace {
 
-/// Before the bodies. They are affine images of a ball in four faces. The kernel's own ball has one face, with
-/// a seam and poles: dilated, Gmsh often fails to mesh it. All slices of a particle have the same faces, so
-/// that those on opposite sides are bounded by the same curves.
+/// The part of the script before the bodies. Bodies are affine images of a ball with four faces. The kernel's own
+/// ball has a single face with a seam and poles, and if it is scaled, Gmsh often fails to mesh it. All slices of a
+/// particle have the same faces, so that faces on opposite sides of the box are bounded by the same curves.
 constexpr const char* macros = R"(
 box = 1;
 Box(box) = {-hx, -hy, -hz, 2*hx, 2*hy, 2*hz};
@@ -91,7 +91,7 @@ Macro PairFaces
 Return
 )";
 
-/// After the bodies, which keep their numbers.
+/// The part of the script after the bodies, which keep their numbers.
 constexpr const char* assembly = R"(
 Recursive Delete{ Volume{ball()}; }
 matrix() = BooleanFragments{ Volume{box}; Delete; }{ Volume{bodies()}; Delete; };
@@ -132,13 +132,13 @@ EndFor
 
 )";
 
-/// Over the thinnest body: how thick a side is in the eyes of the kernel, and how well faces and their images
-/// agree.
+/// Tolerances in units of the shortest semi-axis: how far from a side of the box a face may lie to belong to it, and
+/// how well a face and its image on the opposite side must agree.
 constexpr double side_tolerance = 1e-3, twin_tolerance = 0.02;
 
 using Bodies = std::vector<BodyInBox>::const_iterator;
 
-/// The bodies of one particle.
+/// The bodies of one particle: slices of it and of its images.
 struct Slices {
   Bodies begin, end;
 };
@@ -191,7 +191,7 @@ std::string head(const Configuration3& configuration, const Vec3& translation) {
       half.x(), half.y(), half.z(), side_tolerance * shortest, twin_tolerance * shortest);
 }
 
-/// A name in quotes, which the language cannot have inside.
+/// Puts a name in quotes. The language does not allow quotes inside, so they become apostrophes.
 std::string quoted(std::string name) {
   std::ranges::replace(name, '"', '\'');
   return '"' + name + '"';

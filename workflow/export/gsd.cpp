@@ -38,16 +38,17 @@ constexpr std::uint8_t type_number() {
   if constexpr (std::is_same_v<T, double>) return 10;
 }
 
-/// Writes a file of GSD, the general simulation data of HOOMD-blue, file layer 2.0
-/// (https://gsd.readthedocs.io/en/stable/file-layer.html): frames of named arrays, "chunks".
+/// Writes a GSD file, the general simulation data of HOOMD-blue, file layer 2.0
+/// (https://gsd.readthedocs.io/en/stable/file-layer.html). It consists of frames of named arrays, which are called
+/// chunks:
 ///
-///     header    256 bytes: what the file is, and where the two blocks below lie
-///     chunks    the bare numbers, row by row, one after the other
+///     header    256 bytes: the kind of file, and the places of the names and the index
+///     chunks    the numbers alone, row by row, one chunk after the other
 ///     names     of the chunks, each ended by a zero byte, in units of 64 bytes
 ///     index     32 bytes per chunk, by frame and then by name: place, shape and type
 ///
-/// Names and index come last, so that nothing needs to be known beforehand; memory grows by an
-/// index entry per chunk.
+/// Names and index come last, so that nothing needs to be known in advance. Memory grows by one index entry per
+/// chunk.
 class GsdFile {
  public:
   explicit GsdFile(const std::filesystem::path& path) : file_(path) {
@@ -58,11 +59,12 @@ class GsdFile {
         .copy(header_.application.data(), header_.application.size() - 1);
     std::string_view("hoomd").copy(header_.schema.data(), header_.schema.size() - 1);
     file_.write(
-        bytes_of(std::span<const gsd::Header>(&header_, 1)));  // its place; the rest by close
+        // This reserves the place of the header, which close overwrites.
+        bytes_of(std::span<const gsd::Header>(&header_, 1)));
   }
 
-  /// Adds an array of `columns` numbers per row to the frame. Every frame writes its names in the same order, each at
-  /// most once; some may be left out.
+  /// Adds an array of `columns` numbers per row to the frame. Every frame must write its names in the same order,
+  /// each at most once; it may leave some out.
   template <class T>
   void write(const std::string& name, std::span<const T> values, std::uint32_t columns = 1) {
     const std::uint16_t number = number_of(name);
@@ -89,14 +91,14 @@ class GsdFile {
   void write_names() {
     std::string block;
     for (const std::string& name : names_) block += name + '\0';
-    // One zero byte more ends the list.
+    // An additional zero byte ends the list.
     header_.names_units = block.size() / gsd::names_unit + 1;
     header_.names_location = file_.size();
     block.resize(header_.names_units * gsd::names_unit);
     file_.write(block);
   }
   void write_index() {
-    index_.push_back({});  // ends the list
+    index_.push_back({});  // an empty entry ends the list
     header_.index_entries = index_.size();
     header_.index_location = file_.size();
     file_.write(bytes_of(std::span<const gsd::Entry>(index_)));
@@ -116,8 +118,8 @@ float rounded_up(double x) {
   return result < x ? std::nextafter(result, infinity) : result;
 }
 
-/// Rounding is monotonic, so |x| ≤ L/2 stays so in a box that is not smaller; only the upper face,
-/// which belongs to the next image, can be met.
+/// Rounding is monotonic, so |x| ≤ L/2 still holds in a box that is not smaller. Rounding can reach the upper face,
+/// however, which belongs to the next image.
 float rounded_inside(double x, float length) {
   const auto result = static_cast<float>(x);
   return result >= length / 2 ? std::nextafter(length / 2, -infinity) : result;
@@ -143,7 +145,7 @@ Vec3 modelled_inertia(const Configuration3& configuration, std::size_t i) {
   return inertia;
 }
 
-/// 2 q (0, L).
+/// The momentum quaternion 2 q (0, L).
 Quaternion momentum_quaternion(const Configuration2& configuration, std::size_t i) {
   const double half = 0.5 * configuration.angle[i];
   const double twice =
@@ -160,7 +162,7 @@ Quaternion momentum_quaternion(const Configuration3& configuration, std::size_t 
   return q * twice;
 }
 
-/// The shape of all particles of a species; none if they differ, or if there are no particles.
+/// The shape that all particles of a species share; no value if shapes differ or if there are no particles.
 using CommonShape = std::optional<Vec3>;
 
 template <int Dim>
@@ -218,7 +220,7 @@ class GsdSink final : public FrameSink<Dim> {
   void close() override { file_.close(); }
 
  private:
-  /// What the first frame says holds for all.
+  /// Writes what does not change; readers of GSD take it from the first frame for all frames.
   void write_fixed(const Configuration<Dim>& configuration) {
     const std::uint8_t dimensions = Dim;
     const auto n = static_cast<std::uint32_t>(configuration.size());
@@ -245,8 +247,8 @@ class GsdSink final : public FrameSink<Dim> {
     write_texts("particles/type_shapes", shapes);
     write_own_shapes(configuration, common);
   }
-  /// Writes the sizes of particles that differ within their species: diameters if all such particles are round, else
-  /// semi-axes.
+  /// Writes the sizes of all particles if sizes differ within a species: diameters if all particles of such species
+  /// are round, else semi-axes.
   void write_own_shapes(const Configuration<Dim>& configuration,
                         const std::vector<CommonShape>& common) {
     bool some_round = false, some_not = false;
@@ -264,7 +266,7 @@ class GsdSink final : public FrameSink<Dim> {
     else if (some_round)
       file_.write<float>("particles/diameter", diameters);
   }
-  /// One row per text, filled up with zero bytes.
+  /// Writes one row per text, filled up with zero bytes.
   void write_texts(const std::string& name, const std::vector<std::string>& texts) {
     std::size_t width = 0;
     for (const std::string& text : texts) width = std::max(width, text.size() + 1);

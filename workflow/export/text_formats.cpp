@@ -13,7 +13,7 @@
 namespace vitrel {
 namespace {
 
-/// A text that holds a comma, a quote or a line break stands in quotes, quotes in it doubled.
+/// A text that contains a comma, a quote or a line break is put in quotes, and quotes in it are doubled.
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -21,7 +21,7 @@ std::string csv_field(const std::string& text) {
   return quoted + '"';
 }
 
-/// A column for every direction, whose letter stands for {}.
+/// Repeats the column for every direction, whose letter replaces {}.
 template <int Dim>
 std::string directions(std::string_view column) {
   std::string text;
@@ -44,7 +44,7 @@ std::string csv_header(const StoredMotion& motion) {
   return text + '\n';
 }
 
-// What a particle has in the columns that differ between plane and space.
+// The columns of a particle that differ between plane and space.
 
 Eigen::Array3d orientation_and_shape(const Configuration2& configuration, std::size_t i) {
   const Vec2 half = configuration.shape[i].half_lengths();
@@ -121,7 +121,7 @@ void append_xyz(fmt::memory_buffer& text, const StoredFrame<Dim>& frame, StoredM
     append(in_space(configuration.position[i]));
     append(in_space(configuration.image[i]));
     if constexpr (Dim == 2) fmt::format_to(out, " {}", configuration.angle[i]);
-    append(orientation_in_space(configuration, i).coeffs());  // x, y, z, w
+    append(orientation_in_space(configuration, i).coeffs());  // coeffs() are x, y, z, w
     append(half_lengths_in_space(configuration.shape[i]));
     fmt::format_to(out, " {}", configuration.mass[i]);
     if (motion.velocities) append(in_space(configuration.velocity[i]));

@@ -7,7 +7,7 @@
 #include "workflow/export/frame_sink.h"
 
 /// @file
-/// Trajectories as text, every number with the digits, 17 at most, that give the same double back.
+/// Trajectories as text. Every number has as many digits, at most 17, as are needed to read back the same double.
 ///
 /// `csv` is one table: a line per frame and particle, after one line of `name [unit]`.
 ///
@@ -23,10 +23,11 @@
 ///                                                    space along the own x, y and z axes
 ///     mass                         the same
 ///     vx, vy                       …, vz             velocity, if the trajectory has it
-///     omega                        omega_x, …        angular velocity in the axes of space, likewise
+///     omega                        omega_x, …        angular velocity in the axes of space, if the
+///                                                    trajectory has it
 ///
-/// `xyz` is extended XYZ, frame after frame. OVITO takes the columns for what they are by their names; ASE keeps
-/// all of them as arrays.
+/// `xyz` is extended XYZ, frame after frame. OVITO recognises the columns by their names; ASE keeps all of them as
+/// arrays.
 ///
 ///     Lattice, Origin                   the box, centred at the origin; pbc="T T T". In the plane
 ///                                       of height 1; pbc="T T F"
@@ -37,27 +38,27 @@
 ///                                       unwrapped = pos + map_shift ∘ box
 ///     angle                             in the plane only: unwrapped, radians
 ///     orientation                       quaternion x, y, z, w; in the plane (0, 0, sin θ/2, cos θ/2)
-///     aspherical_shape                  semi-axes a, b, c; in the plane c = b, for the sake of
-///                                       being seen
+///     aspherical_shape                  semi-axes a, b, c; in the plane c = b, so that bodies are
+///                                       visible
 ///     mass
 ///     velo, omega                       velocity and angular velocity, both in the axes of space, if
 ///                                       the trajectory has them
 ///
-/// `xytheta` is of a trajectory in the plane what the program that animates it in appendix B.3 of woetzel2012 reads: a
-/// line per frame and no header line,
+/// `xytheta` writes a trajectory in the plane in the form that the animation program of appendix B.3 of woetzel2012
+/// reads: a line per frame without a header line,
 ///
 ///     t x₁ y₁ θ₁ x₂ y₂ θ₂ …
 ///
-/// - x and y are wrapped into the box centred at the origin, as that program draws the square from −R/2 to R/2 and
-///   nothing outside. A particle that leaves the box between two frames therefore jumps to the opposite side.
-/// - θ is the angle from the x axis to the major axis in radians, unwrapped: the program interpolates it between
-///   frames.
+/// - x and y are wrapped into the box centred at the origin, because that program draws the square from −R/2 to R/2
+///   and nothing outside. A particle that leaves the box between two frames therefore jumps to the opposite side.
+/// - θ is the angle from the x axis to the major axis in radians. It is unwrapped, because the program interpolates
+///   it between frames.
 ///
-/// The text has neither the box nor the shapes. The program computes them from NU, AR and PF, for equal particles with
-/// a b = 1 in a square box.
+/// The text contains neither the box nor the shapes. The program computes them from NU, AR and PF, for equal
+/// particles with a b = 1 in a square box.
 namespace vitrel {
 
-/// `format` is one of the three.
+/// `format` is "csv", "xyz" or "xytheta".
 template <int Dim>
 std::unique_ptr<FrameSink<Dim>> text_sink(std::string_view format,
                                           const std::filesystem::path& path, StoredMotion motion);

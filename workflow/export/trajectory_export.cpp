@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 using Frames = std::vector<std::uint64_t>;
 
-/// Whether the images that meet the box are written, too.
+/// Whether the export contains all images that meet the box.
 bool is_of_packing(const ExportRequest& request) {
   const std::string& format = request.format;
   return format == "geo" || format == "vti" || format == "vtp" || request.images;
@@ -63,7 +63,7 @@ StoredMotion stored_motion(const TrajectoryReader& reader) {
   return {reader.has("velocity"), reader.has("angular_velocity")};
 }
 
-/// Nothing if it was stopped.
+/// Returns no value if the run control stopped the export.
 template <int Dim>
 std::optional<ExportedTrajectory> copy_frames(const TrajectoryReader& reader, const Frames& chosen,
                                               FrameSink<Dim>& sink, const RunControl& control) {

@@ -11,49 +11,49 @@
 
 namespace vitrel {
 
-/// Trajectories and states are exported as
+/// The formats to which trajectories and states are exported:
 ///
-///     gsd, xyz, csv      the particles of every frame: gsd.h, text_formats.h
-///     xytheta            in the plane, the same: text_formats.h
-///     geo, vti, vtp      in space: one period with all images that meet the box, and so csv with
-///                        `images` (packing.h). Of several frames vtp makes a folder, a ParaView
-///                        series; the others take one frame
+///     gsd, xyz, csv      the particles of every frame (gsd.h, text_formats.h)
+///     xytheta            the particles of every frame, in the plane only (text_formats.h)
+///     geo, vti, vtp      in space only: one period with all images that meet the box (packing.h); csv
+///                        with `images` contains them too. For several frames vtp makes a folder,
+///                        a ParaView series; the other formats of this line take one frame.
 struct ExportFormat {
   std::string name;
   bool in_the_plane, in_space;
 };
-/// All of them.
+/// All formats.
 const std::vector<ExportFormat>& export_formats();
 
 struct ExportRequest {
-  std::filesystem::path input;   ///< trajectory or state
-  std::string format;            ///< the name of one that has the dimension of the input
+  std::filesystem::path input;   ///< a trajectory or a state
+  std::string format;            ///< the name of a format that exists in the dimension of the input
   std::filesystem::path output;  ///< must not exist
-  std::optional<std::string> frames =
-      {};  ///< which ones, as FrameRange reads it; all, or the last where it is one
-  std::optional<double> shrink = {};       ///< of packings: all semi-axes times this, up to 1; 1
-  std::optional<std::size_t> voxels = {};  ///< of vti: along the longest edge; 100
-  bool images = false;                     ///< of csv in space
-  KnownSystem known = {};                  ///< of files of other programs
+  /// The frames for FrameRange. By default all, or the last if the format takes one frame.
+  std::optional<std::string> frames = {};
+  /// Factor of all semi-axes for packings, at most 1; by default 1.
+  std::optional<double> shrink = {};
+  std::optional<std::size_t> voxels = {};  ///< for vti: along the longest edge; 100 by default
+  bool images = false;                     ///< for csv in space: includes images
+  KnownSystem known = {};                  ///< for files of other programs
 };
 
 struct ExportedTrajectory {
   std::uint64_t frames = 0;
   std::size_t particles = 0;
-  std::size_t bodies = 0;  ///< of a packing: images included
+  std::size_t bodies = 0;  ///< for packings: including images
   std::uintmax_t bytes = 0;
-  bool omits_images =
-      false;  ///< csv of a file of one frame in space, a packing, without its images
+  /// True for csv of a packing, a file of one frame in space, without its images.
+  bool omits_images = false;
   ImportReport import = {};
 };
 
-/// Beside the input: with the format as its suffix (.dat for xytheta), or, of a series, the folder
+/// The output beside the input: with the format as its suffix (.dat for xytheta) or, for a series, the folder
 /// `<input>_vtp`. Ignores `output`. Throws UserError and FileError.
 std::filesystem::path default_output(const ExportRequest& request);
 
-/// Copies the frames, one in memory at a time; the output appears under its name when it is
-/// complete. Nothing if the run control stopped it: then there is no output. Throws UserError and
-/// FileError.
+/// Copies the frames, holding one in memory at a time. The output appears under its name when it is complete. If the
+/// run control stops the export, there is no output, and the result is empty. Throws UserError and FileError.
 std::optional<ExportedTrajectory> export_trajectory(const ExportRequest& request,
                                                     const RunControl& control);
 

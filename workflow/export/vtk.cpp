@@ -30,7 +30,7 @@ constexpr const char* type_name<double> = "Float64";
 template <>
 constexpr const char* type_name<std::int32_t> = "Int32";
 
-/// An array of numbers, `columns` to a point or cell, in base64: the number of bytes, and the bytes.
+/// An array with `columns` numbers for each point or cell, in base64: the number of bytes, then the bytes.
 template <class T>
 std::string data_array(const std::string& name, int columns, const std::vector<T>& values) {
   const std::span<const std::byte> bytes = std::as_bytes(std::span(values));
@@ -49,7 +49,7 @@ void append(std::vector<T>& row, const auto& vector) {
   row.insert(row.end(), vector.data(), vector.data() + vector.size());
 }
 
-/// A grid over the box.
+/// A grid of voxels that fills the box.
 struct Grid {
   Eigen::Array<std::int64_t, 3, 1> count;
   Vec3 origin, step;
@@ -67,7 +67,7 @@ struct Grid {
   double coordinate(int k, std::int64_t n) const {
     return origin[k] + (static_cast<double>(n) + 0.5) * step[k];
   }
-  /// The voxels whose centres lie between two coordinates: first, and the one after the last.
+  /// The voxels whose centres lie between two coordinates: the first, and the one after the last.
   std::pair<std::int64_t, std::int64_t> between(int k, double low, double high) const {
     const auto voxel = [&](double x) {
       return static_cast<std::int64_t>(std::ceil((x - origin[k]) / step[k] - 0.5));
@@ -76,8 +76,8 @@ struct Grid {
   }
 };
 
-/// Gives the voxels whose centres a body holds its number. On a line along x the quadratic form is
-/// P_xx (x − x₀)² + least, with the shape matrix' inverse P.
+/// Assigns `number` to all voxels whose centres lie in the body. On a line along x the quadratic form is P_xx (x −
+/// x₀)² + least, where P is the inverse of the shape matrix.
 void fill(std::vector<std::int32_t>& voxels, const Grid& grid, const ParticleShape<3>& body,
           const Quaternion& orientation, const Vec3& centre, std::int32_t number) {
   const Mat3 form = (orientation.toRotationMatrix() *

@@ -22,7 +22,7 @@ void describe_impact(Impact& p, FieldVisitor& visit) {
   visit.quantity({"second_radius", "m", "Radius of the second particle."}, p.second_radius);
 }
 
-/// Without a file the defaults, of spheres.
+/// Reads the contact from the file or, without one, takes the defaults for spheres.
 ContactParameters load_contact(const ImpactSource& source) {
   std::vector<std::string> overrides;
   for (const std::string& assignment : source.overrides)
@@ -44,7 +44,7 @@ void apply_option(TomlNode& root, const std::string& option, const std::string& 
 
 constexpr Restitution no_value{unknown, unknown, unknown, unknown};
 
-/// At the middle of cell k of a lattice of `side` equal cells.
+/// The centre of cell k if the interval [low, high] is divided into `side` equal cells.
 double within(double low, double high, int k, int side) {
   return low + (k + 0.5) / side * (high - low);
 }

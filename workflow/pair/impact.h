@@ -9,48 +9,48 @@
 #include "workflow/configuration/soft_particles.h"
 
 /// @file
-/// One impact of two soft spheres of a material (edmd/soft/restitution.h), integrated and from the table that a run
-/// uses.
+/// The impact of two soft spheres of one material (edmd/soft/restitution.h), by integration and by the table that a
+/// run uses.
 namespace vitrel {
 
-/// Where an impact comes from. Empty texts are not given.
+/// Where an impact comes from. An empty text means that the value is not given.
 struct ImpactSource {
-  std::filesystem::path file;  ///< parameter file with [dynamics.contact]; empty: the defaults
-  std::vector<std::string> overrides;  ///< each "key=value", of [dynamics.contact]
+  std::filesystem::path file;  ///< a parameter file with [dynamics.contact]; the defaults if empty
+  std::vector<std::string> overrides;  ///< "key=value" for keys of [dynamics.contact]
   std::string speed, impact_parameter, second_radius;
 };
 
 struct Impact {
   ContactParameters contact;
-  double speed = 0;             ///< of the relative velocity, m/s
+  double speed = 0;             ///< of the relative velocity, in m/s
   double impact_parameter = 0;  ///< over the sum of the radii; 0: head-on, 1: grazing
-  double second_radius = 0;     ///< m, of the same density as the first
+  double second_radius = 0;     ///< in m; the density is that of the first sphere
 
-  /// In SI units.
+  /// Both spheres in SI units.
   ContactPair pair() const;
   ContactScales scales() const;
   ScaledImpact scaled() const;
-  /// √(1 − b²) times the speed.
+  /// The normal component of the relative velocity, √(1 − b²) times the speed.
   double normal_speed() const;
 };
 
-/// Reads and validates. Without a speed that of the parameters (thermal_speed), without a second radius the first.
-/// Throws UserError or FileError.
+/// Reads and validates an impact. The speed defaults to that of the parameters (thermal_speed), the second radius to
+/// the first. Throws UserError or FileError.
 Impact load_impact(const ImpactSource& source);
-/// UserError if the speed, the impact parameter or the second radius is impossible.
+/// Throws UserError if the speed, the impact parameter or the second radius is impossible.
 void validate(const Impact& impact);
 
-/// ε_r, ε_φ, ε_t and ε_ṙ by integration.
+/// The coefficients ε_r, ε_φ, ε_t and ε_ṙ by integration of the impact.
 Restitution integrated(const Impact& impact);
 
-/// The table of a run of particles of these two kinds.
+/// The table of coefficients that a run of particles of these two kinds uses.
 RestitutionTable table_of(const Impact& impact, const Log& log);
 
-/// The tabulated coefficients of this pair on a lattice of 100 relative speeds and 100 impact parameters b, evenly spaced
-/// in ln v and ln(b/√(1 − b²)) over the ranges of the table; NaN where it has no value.
+/// The tabulated coefficients of this pair on a lattice of 100 relative speeds and 100 impact parameters b, evenly
+/// spaced in ln v and ln(b/√(1 − b²)) over the ranges of the table. They are NaN where the table has no value.
 Table coefficients_on_lattice(const Impact& impact, const RestitutionTable& table);
 
-/// All values as TOML text.
+/// All values as TOML.
 std::string impact_text(const Impact& impact);
 
 }  // namespace vitrel

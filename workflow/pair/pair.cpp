@@ -21,7 +21,7 @@
 namespace vitrel {
 namespace {
 
-/// Zero if no components are given.
+/// Converts components to a vector; no components mean zero.
 template <int Dim>
 Vec<Dim> vector_of(const std::vector<double>& components) {
   if (components.empty()) return Vec<Dim>::Zero();
@@ -75,7 +75,8 @@ EllipsoidEta<double> criterion(const Ellipsoid& one, const Quaternion& orientati
   return ellipsoid_eta(one, orientation1, two, orientation2, d);
 }
 
-/// Calls visit(shift) for the images of body 2 within `reach`, when its separation from body 1 is d.
+/// Calls visit(shift) for all images of body 2 within `reach` of body 1. d is the separation of the bodies
+/// themselves.
 template <int Dim, class Visit>
 void for_each_image(const Pair<Dim>& pair, const Vec<Dim>& d, double reach, Visit&& visit) {
   if (!pair.box) return visit(Shift<Dim>::Zero());
@@ -83,8 +84,8 @@ void for_each_image(const Pair<Dim>& pair, const Vec<Dim>& d, double reach, Visi
                            [&](const Shift<Dim>& shift, const Vec<Dim>&) { visit(shift); });
 }
 
-/// Any image as close as this may be the one with the smallest gap: |d| less the circumradii ≤ gap ≤ |d| less the
-/// inradii.
+/// Images whose centres are no farther apart than this may have the smallest gap, because |d| less the circumradii ≤
+/// gap ≤ |d| less the inradii.
 template <int Dim>
 double reach_of_smallest_gap(const Pair<Dim>& pair, const Vec<Dim>& d) {
   if (!pair.box) return 0;
@@ -95,7 +96,7 @@ double reach_of_smallest_gap(const Pair<Dim>& pair, const Vec<Dim>& d) {
   return reach * (1 + 1e-12);
 }
 
-/// From centre 1 to centre 2, the images of body 2 counted.
+/// The vector from centre 1 to the centre of the given image of body 2, in extended precision.
 template <int Dim>
 exact::Point<Dim> exact_separation(const Pair<Dim>& pair, const exact::Particle<Dim>& one,
                                    const exact::Particle<Dim>& two, const Shift<Dim>& shift) {
@@ -106,7 +107,7 @@ exact::Point<Dim> exact_separation(const Pair<Dim>& pair, const exact::Particle<
   return d;
 }
 
-/// The normal and the closest points; d is the separation of the centres.
+/// Adds the normal and the closest points; d is the separation of the centres.
 template <int Dim>
 void add_closest_points(const ParticleShape<Dim>& one, const Pose<Dim>& pose1,
                         const ParticleShape<Dim>& two, const Pose<Dim>& pose2, const Vec<Dim>& d,
@@ -145,10 +146,10 @@ double norm(const Vec3& angular_velocity) {
   return angular_velocity.norm();
 }
 
-/// A search takes a few steps per radian.
+/// A search takes a few steps per radian, so the number of radians must be limited.
 template <int Dim>
 void require_few_rotations(const Pair<Dim>& pair) {
-  constexpr double max_radians = 1e6;  // angles then keep ten digits
+  constexpr double max_radians = 1e6;  // so that angles keep ten digits
   for (const Flight<ParticleShape<Dim>>* flight : {&pair.one, &pair.two}) {
     const double radians = norm(flight->motion.angular_velocity) * pair.horizon;
     if (!(radians <= max_radians))
@@ -159,7 +160,8 @@ void require_few_rotations(const Pair<Dim>& pair) {
   }
 }
 
-/// The first contact up to `end` with any image within `reach`, when the separation is d.
+/// Finds the first contact up to `end` with any image of body 2 that lies within `reach` of body 1 when the body itself
+/// has the separation d.
 template <int Dim>
 PairContact<Dim> earliest_contact(const Pair<Dim>& pair, const PredictContact<Dim>& predict,
                                   double end, const Vec<Dim>& d, double reach) {
@@ -196,7 +198,7 @@ template <int Dim>
 bool overlaps(const Pair<Dim>& pair) {
   const Vec<Dim> d = pair.two.pose.position - pair.one.pose.position;
   const double touch = pair.one.body.circumradius() + pair.two.body.circumradius();
-  const double reach = touch + 1e-12 * (touch + d.norm());  // beyond rounding
+  const double reach = touch + 1e-12 * (touch + d.norm());  // more than rounding can change
   if (!pair.box && d.norm() > reach) return false;
   const auto one = exact::particle(pair.one.body, pair.one.pose);
   const auto two = exact::particle(pair.two.body, pair.two.pose);

@@ -49,7 +49,8 @@ void describe_pair(PairParameters& p, FieldVisitor& visit) {
   visit.list({"body", "", "The two bodies."}, p.body, describe_body);
 }
 
-/// Fourth powers of lengths and velocities must not overflow, nor those of semi-axes vanish.
+/// Fourth powers of lengths and velocities must not overflow, and fourth powers of semi-axes must not underflow to
+/// zero.
 constexpr double largest_value = 1e50, smallest_value = 1e-50;
 
 void require_finite(std::span<const double> values, const std::string& key, const Rules& rules) {
@@ -58,7 +59,7 @@ void require_finite(std::span<const double> values, const std::string& key, cons
       fmt::format("is {}, but must be finite, at most {:g}", to_toml(values), largest_value));
 }
 
-/// A vector; empty: zero.
+/// Requires that the vector is finite and of the right dimension; an empty one stands for zero.
 void validate_components(const std::vector<double>& vector, std::size_t dimension,
                          const std::string& key, const Rules& rules) {
   rules.require(vector.empty() || vector.size() == dimension, key,
@@ -108,7 +109,7 @@ void validate_body(const BodyParameters& p, const Rules& rules) {
   require_finite(omega, "angular_velocity", rules);
 }
 
-/// How far both bodies get from the origin, at most.
+/// An upper bound of how far the bodies get from the origin.
 double longest_path(const PairParameters& p) {
   double path = 0;
   for (const BodyParameters& body : p.body) {
@@ -119,7 +120,7 @@ double longest_path(const PairParameters& p) {
 }
 
 void validate_box(const std::vector<double>& box, const PairParameters& p) {
-  constexpr double farthest = 1e6;  // box lengths; coordinates then keep ten digits
+  constexpr double farthest = 1e6;  // in box lengths, so that coordinates keep ten digits
   const Rules rules("");
   rules.require(box.size() == p.dimension(), "box",
                 fmt::format("is {}, but must have {} sides", to_toml(box), p.dimension()));
@@ -159,18 +160,18 @@ PairParameters read(const TomlNode& root) {
   return pair;
 }
 
-/// Several numbers as a TOML array.
+/// Puts several numbers, separated by commas, into the brackets of a TOML array.
 std::string as_array(const std::string& value) {
   const bool is_list = value.find(',') != std::string::npos && !value.starts_with('[');
   return is_list ? "[" + value + "]" : value;
 }
 
-/// The keys of a body, separated by blanks.
+/// Sets the keys of a body from a line of assignments that are separated by blanks.
 void add_body(TomlNode& root, const std::string& line, std::size_t index) {
   const std::string option = "--body '" + line + "'";
   std::istringstream words(line);
   std::string word;
-  words >> word;  // empty if the line is
+  words >> word;  // word is empty if the line is
   do {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0)

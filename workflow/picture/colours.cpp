@@ -27,7 +27,7 @@ std::uint8_t channel(double value) {
   return static_cast<std::uint8_t>(std::lround(value));
 }
 
-/// Linear light from 0 to 1 as a channel of sRGB.
+/// Converts linear light from 0 to 1 to a channel of sRGB.
 std::uint8_t encoded(double light) {
   const double clipped = std::clamp(light, 0.0, 1.0);
   return channel(
@@ -72,7 +72,8 @@ Colour sequential_colour(double x) {
   return colour;
 }
 
-// Around a circle in OKLab, in the two directions that all eyes tell apart: lightness, and blue to yellow.
+// The colours lie on a circle in OKLab, spanned by the two directions that everyone can distinguish: lightness, and
+// blue to yellow.
 Colour orientation_colour(double angle) {
   const double phase = 2 * angle;
   const double lightness = 0.64 + 0.24 * std::cos(phase);

@@ -40,7 +40,7 @@ std::string svg_of(const Scene& scene, int width) {
       "{1}\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"{2}\"/>\n",
       width, height, hexadecimal(background));
   for (const Scene::Body& body : scene.bodies) {
-    // The principal axes of the shape matrix; y is downwards in SVG.
+    // The ellipse is drawn along the principal axes of the shape matrix; y points downwards in SVG.
     const double mean = 0.5 * (body.shape(0, 0) + body.shape(1, 1));
     const double gap = 0.5 * (body.shape(0, 0) - body.shape(1, 1)), mixed = body.shape(0, 1);
     const double a = scale * std::sqrt(mean + std::hypot(gap, mixed));

@@ -29,7 +29,7 @@
 namespace vitrel {
 namespace {
 
-/// Starts a program of PATH; returns the number of the error, or 0.
+/// Starts a program that is found on PATH. Returns the number of the error, or 0.
 int start(std::vector<std::string> words, pid_t& process) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -37,18 +37,19 @@ int start(std::vector<std::string> words, pid_t& process) {
   return posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(), environ);
 }
 
-/// A film (MP4), written by the program ffmpeg of PATH, which gets the images through a socket. It appears under its
-/// name when it is complete. Throws FileError; what ffmpeg complains about is on standard error.
+/// A film (MP4) written by the program ffmpeg, which is found on PATH and receives the images through a socket. The
+/// file appears under its name when it is complete. Throws FileError; ffmpeg writes its own messages to standard
+/// error.
 class Film {
  public:
-  /// Width and height must be even. UserError if there is no ffmpeg.
+  /// Width and height must be even. Throws UserError if ffmpeg cannot be started.
   Film(const std::filesystem::path& path, int width, int height, double images_per_second)
       : path_(path), pending_(path) {
     std::array<int, 2> ends{};
     checked(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), "socketpair");
     checked(fcntl(ends[0], F_SETFD, FD_CLOEXEC), "fcntl");
     input_ = ends[0];
-    // Players ask for colours of the form yuv420p.
+    // Players require yuv420p.
     const int error = start({"ffmpeg",
                              "-nostdin",
                              "-loglevel",
@@ -78,7 +79,7 @@ class Film {
         "picture (.png)",
         std::generic_category().message(error)));
   }
-  /// Ends ffmpeg, if the film is not closed.
+  /// Kills ffmpeg if the film was not closed.
   ~Film() {
     if (process_ == 0) return;
     static_cast<void>(kill(process_, SIGKILL));
@@ -95,14 +96,14 @@ class Film {
       sent += static_cast<std::size_t>(std::max<ssize_t>(part, 0));
     }
   }
-  /// Waits until the film is complete, and gives it its name.
+  /// Waits until the film is complete, and gives the file its name.
   void close() {
     if (const int status = end_input(); status != 0) fail(status);
     pending_.commit();
   }
 
  private:
-  /// Returns what waitpid says.
+  /// Returns the status from waitpid.
   int end_input() {
     static_cast<void>(::close(input_));
     int status = 0;
@@ -111,7 +112,7 @@ class Film {
     process_ = 0;
     return status;
   }
-  /// `status` as of waitpid.
+  /// `status` is the status from waitpid.
   [[noreturn]] void fail(int status) const {
     throw FileError(fmt::format(
         "{}: cannot be written: ffmpeg {} {}", path_.string(),
@@ -121,7 +122,7 @@ class Film {
 
   std::filesystem::path path_;
   AtomicFile pending_;
-  pid_t process_ = 0;  ///< 0: ended
+  pid_t process_ = 0;  ///< 0 if it has ended
   int input_ = -1;
 };
 
@@ -158,7 +159,7 @@ Frames chosen_frames(const TrajectoryReader& reader, const PictureRequest& reque
   return chosen;
 }
 
-/// How far each particle has gone.
+/// The distance that each particle has moved since the first frame.
 template <int Dim>
 std::vector<double> displacements(const Configuration<Dim>& first, const Configuration<Dim>& now) {
   std::vector<double> result;
@@ -167,7 +168,7 @@ std::vector<double> displacements(const Configuration<Dim>& first, const Configu
   return result;
 }
 
-/// Gives the particles of all frames their colours.
+/// Colours the particles of all frames.
 template <int Dim>
 class Colourist {
  public:
@@ -205,7 +206,7 @@ Scene scene_of(const PictureRequest& request, const Configuration3& frame,
   return scene_of(frame, colours, request.view.value_or(View{}));
 }
 
-/// One picture, or the pictures of a film.
+/// A file with one picture, or with the pictures of a film.
 class PictureFile {
  public:
   explicit PictureFile(const PictureRequest& request) : request_(request), width_(request.width) {}

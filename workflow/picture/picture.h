@@ -12,14 +12,14 @@
 namespace vitrel {
 
 struct PictureRequest {
-  std::filesystem::path input;             ///< trajectory or state
-  std::filesystem::path output;            ///< .png, .svg (in the plane), or .mp4, a film; replaced
-  std::optional<std::string> frames = {};  ///< as FrameRange reads it; the last, of a film all
-  std::string colouring = {};              ///< one of colourings(); empty: default_colouring
-  int width = 1000;                        ///< in pixels; films have even numbers of them
-  std::optional<View> view = {};           ///< in space
-  std::optional<double> rate = {};         ///< images per second of a film; 25
-  KnownSystem known = {};                  ///< of files of other programs
+  std::filesystem::path input;   ///< a trajectory or a state
+  std::filesystem::path output;  ///< .png, .svg (in the plane) or .mp4 (a film); is replaced
+  std::optional<std::string> frames = {};  ///< for FrameRange; by default the last, for a film all
+  std::string colouring = {};              ///< one of colourings(); default_colouring if empty
+  int width = 1000;                        ///< in pixels; films round it up to an even number
+  std::optional<View> view = {};           ///< in space only
+  std::optional<double> rate = {};         ///< images per second of a film; by default 25
+  KnownSystem known = {};                  ///< for files of other programs
 };
 
 struct WrittenPicture {
@@ -27,12 +27,12 @@ struct WrittenPicture {
   std::size_t particles = 0;
   int width = 0, height = 0;
   std::string colouring;
-  std::optional<ColourScale> scale = {};  ///< of colours that show numbers
+  std::optional<ColourScale> scale = {};  ///< for colourings that show numbers
   ImportReport import = {};
 };
 
-/// Draws frames of a trajectory; the output appears under its name when it is complete. Nothing if the run control
-/// stopped it: then there is no output. Throws UserError and FileError.
+/// Draws frames of a trajectory. The output appears under its name when it is complete. If the run control stops the
+/// drawing, there is no output, and the result is empty. Throws UserError and FileError.
 std::optional<WrittenPicture> write_picture(const PictureRequest& request,
                                             const RunControl& control);
 

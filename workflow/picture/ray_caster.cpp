@@ -16,9 +16,9 @@ constexpr int rays_per_pixel = 4;  // in each direction
 constexpr int band_height = 16;    // in pixels
 constexpr double most_pixels = 1e8;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double parallel = 1e-9;  // rise of a face along a ray that never meets it
+constexpr double parallel = 1e-9;  // a face with less rise along a ray never meets it
 
-using Light = Eigen::Array3d;  // of sRGB, from 0 to 255
+using Light = Eigen::Array3d;  // in sRGB, from 0 to 255
 
 Light light(const Colour& colour) {
   return {static_cast<double>(colour[0]), static_cast<double>(colour[1]),
@@ -27,7 +27,7 @@ Light light(const Colour& colour) {
 
 const Light paper = light(background), ink = light(edge_colour);
 
-/// The lamp is above the left shoulder.
+/// The share of light that a face receives from a lamp above the left shoulder.
 double facing(const Vec3& normal) {
   static const Vec3 lamp = normalized(Vec3(-0.35, 0.45, 0.82));
   return std::clamp(dot(normal, lamp), 0.0, 1.0);
@@ -44,7 +44,7 @@ Light shaded_cut(const Light& colour, const Vec3& normal, bool is_rim) {
   return (0.88 * colour + 0.12 * 255) * (0.62 + 0.3 * facing(normal)) * (is_rim ? 0.6 : 1);
 }
 
-/// Where rays are, in the units of the scene.
+/// The positions of the rays in the units of the scene.
 struct Raster {
   int width, height;  // in rays
   double step;
@@ -84,7 +84,7 @@ std::vector<Edge> edges_of(const Scene& scene) {
   return edges;
 }
 
-/// Some rows of rays.
+/// Draws some rows of rays.
 class Band {
  public:
   Band(const Scene& scene, const Raster& raster, int first_row, int end_row)
@@ -113,14 +113,14 @@ class Band {
     });
   }
 
-  /// A line nearer by its width than it is, so that faces in the same place do not hide it.
+  /// Draws a line as if it were nearer by its width, so that faces in the same place do not hide it.
   void draw(const Edge& edge) {
     const double reach = 0.5 * scene_.line_width();
     const Vec3 middle = 0.5 * (edge.start + edge.end), half = 0.5 * (edge.end - edge.start);
     const double length = norm(half.head<2>()), high = std::abs(half.y());
     for_rows(middle.y(), high + reach, [&](int row) {
       const double y = raster_.y(row) - middle.y();
-      // A line along the row may cover all of it; any other covers what a line without ends would.
+      // A line along the row may cover all of it. Any other line covers what an infinite line would.
       const bool flat = high <= reach;
       const double at = flat ? 0 : y * half.x() / half.y();
       const double wide = flat ? std::abs(half.x()) + reach : reach * length / high;
@@ -136,7 +136,7 @@ class Band {
     });
   }
 
-  /// In the plane: makes what is outside of the box pale, and draws its edges.
+  /// In the plane, makes everything outside the box pale, and draws the edges of the box.
   void frame() {
     const double reach = 0.5 * scene_.line_width();
     for_each_ray([&](int row, int column) {
@@ -163,10 +163,10 @@ class Band {
 
  private:
   struct Ray {
-    double depth = -infinity;                   ///< of what is seen; larger is nearer
-    double front = infinity, back = -infinity;  ///< between which it is in the box
+    double depth = -infinity;                   ///< of the visible point; larger is nearer
+    double front = infinity, back = -infinity;  ///< the ray is in the box between these
     Light seen = paper;
-    int face = 0;  ///< of the box in front: its axis
+    int face = 0;  ///< axis of the face of the box where the ray enters
   };
 
   Ray& ray(int row, int column) {
@@ -188,7 +188,7 @@ class Band {
     for (int column = raster_.column(middle - reach); column < end; ++column) visit(column);
   }
 
-  /// Where the ray is in the box.
+  /// Finds the part of the ray that lies in the box.
   void cut(int row, int column) {
     Ray& ray = this->ray(row, column);
     const Vec3 origin = scene_.turn.transpose() * Vec3(raster_.x(column), raster_.y(row), 0);
@@ -204,8 +204,8 @@ class Band {
     }
   }
 
-  /// Whether the outline is nearer than `width` to first order, at x in the body with q = xᵀ P x and the gradient P x,
-  /// or the part of it in a face.
+  /// Whether the outline, of the body or of its cut by a face, is nearer than `width` to first order. The point x in
+  /// the body has q = xᵀ P x and the gradient P x.
   bool is_rim(double q, const Vec3& gradient, double width) const {
     const double rho = std::sqrt(q);
     return (1 - rho) * rho < width * norm(gradient);
@@ -246,7 +246,7 @@ class Band {
   std::vector<Ray> rays_;
 };
 
-/// The bodies that reach into each band, in ascending order.
+/// For each band, the bodies that reach into it, in ascending order.
 std::vector<std::vector<std::uint32_t>> bodies_by_band(const Scene& scene, const Raster& raster,
                                                        std::size_t bands) {
   constexpr int rows = band_height * rays_per_pixel;

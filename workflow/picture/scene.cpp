@@ -10,9 +10,9 @@
 namespace vitrel {
 namespace {
 
-constexpr double space_margin = 0.02;  // beyond the box, over half its size
+constexpr double space_margin = 0.02;  // margin around the box, over half its size
 
-/// `turn`: from the axes of the body to those of the view.
+/// `turn` turns the axes of the body into those of the view.
 Scene::Body seen_body(const Vec3& centre, const Vec3& half_lengths, const Mat3& turn,
                       const Colour& colour) {
   const Vec3 squares = half_lengths.cwiseAbs2();
@@ -27,7 +27,7 @@ Scene::Body seen_particle(const Configuration<Dim>& configuration, std::size_t i
                    turn * rotation_matrix(orientation_in_space(configuration, i)), colour);
 }
 
-/// Calls visit(i, centre) for all images of particles whose bounding boxes meet that of these sides around 0.
+/// Calls visit(i, centre) for all images of particles whose bounding boxes meet a box of these sides around 0.
 template <int Dim, class Visit>
 void for_each_image_in(const Configuration<Dim>& configuration, const Vec<Dim>& sides,
                        Visit&& visit) {
@@ -42,7 +42,7 @@ void for_each_image_in(const Configuration<Dim>& configuration, const Vec<Dim>& 
   }
 }
 
-/// The rows are what is to the right, upwards, and towards the eye.
+/// The rows of the matrix are the directions to the right, upwards, and towards the eye.
 Mat3 turn_of(const View& view) {
   constexpr double degree = std::numbers::pi / 180;
   const Vec2 azimuth = direction(view.azimuth * degree),

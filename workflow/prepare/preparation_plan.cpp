@@ -18,22 +18,22 @@
 namespace vitrel {
 namespace {
 
-/// Where a stage begins.
+/// The input of the estimate for one stage.
 struct StageScene {
   const HardFluid& fluid;
   double particles;
   double typical_time;      ///< of the particles (typical_scales.h)
-  double packing_fraction;  ///< at the start
-  double end;               ///< end_of_stage
+  double packing_fraction;  ///< at the start of the stage
+  double end;               ///< at the end of the stage (end_of_stage)
 };
 
-/// Measured, of growing particles: neighbourhoods are made anew after few events.
+/// Measured for growing particles, whose neighbour lists are rebuilt after few events.
 double seconds_per_event(const HardFluid& fluid) {
   if (fluid.is_round()) return fluid.dimension() == 2 ? 0.8e-6 : 1.2e-6;
   return fluid.dimension() == 2 ? 1.2e-6 : 6e-6;
 }
 
-/// Measured, of a particle in one sweep.
+/// Measured time of one particle in one sweep.
 double seconds_per_sweep(const HardFluid& fluid, Moves moves) {
   const bool is_local = moves == Moves::local;
   if (fluid.is_round()) return fluid.dimension() == 2 ? 0.1e-6 : 0.2e-6;
@@ -41,11 +41,13 @@ double seconds_per_sweep(const HardFluid& fluid, Moves moves) {
   return is_local ? 0.5e-6 : 2e-6;
 }
 
-constexpr double jamming = 20;               // from this Z on
-constexpr double collisions_per_rise = 1.5;  // of Z by a factor of e, times γ τ
-constexpr double rises_per_stretch = 0.15;   // of ln Z
+// Particles count as jamming from the Z `jamming` on. Z then rises by a factor of e in collisions_per_rise/(γ τ)
+// collisions of a particle, and ln Z rises by rises_per_stretch in one interval of growth.
+constexpr double jamming = 20;
+constexpr double collisions_per_rise = 1.5;
+constexpr double rises_per_stretch = 0.15;
 
-/// The packing fraction of this Z.
+/// The packing fraction at which the fluid has this Z.
 double fraction_at(const HardFluid& fluid, double z) {
   double low = 0, high = 1;
   for (int k = 0; k < 50; ++k) {
@@ -55,7 +57,7 @@ double fraction_at(const HardFluid& fluid, double z) {
   return low;
 }
 
-/// Growth as a fluid up to a packing fraction, then the rise of ln Z near jamming.
+/// A growth has two parts: the particles grow as a fluid up to a packing fraction, then ln Z rises near jamming.
 struct Path {
   double fluid_end, rises;
 };
@@ -67,7 +69,7 @@ Path path_of(const StageScene& scene, const std::optional<double>& reduced_press
           logarithm(std::max(*reduced_pressure / jamming, 1.0))};
 }
 
-/// ∫ ν dt from φ to `end`, with dt = d ln φ/(D γ).
+/// Collisions of a particle during growth: ∫ ν dt from φ to `end`, with dt = d ln φ/(D γ).
 double collisions_of_growth(const StageScene& scene, double end, double rate) {
   constexpr int steps = 200;
   const double step = logarithm(end / scene.packing_fraction) / steps;
@@ -148,10 +150,10 @@ requires S::places_particles StageCost cost(const S&, const StageScene& scene) {
   return none;
 }
 
-/// Growth is that of a fluid up to Z = 20; from there on particles are taken to jam, and Z rises by a factor of e in
-/// 1.5/(γ τ) collisions of a particle. A stretch of `hybrid` grows all lengths by 1 %, or near jamming ln Z by 0.15.
-/// Swelling takes about 3 √N Z sweeps, as measured for 200 to 1000 disks, ellipses, spheres and ellipsoids between Z =
-/// 6 and 26. Stages that only place the particles cost nothing.
+/// Growth is that of a fluid up to Z = 20. From there on the particles are assumed to jam: Z rises by a factor of e
+/// in 1.5/(γ τ) collisions of a particle. An interval of growth in `hybrid` grows all lengths by 1 % or, near
+/// jamming, raises ln Z by 0.15. Swelling takes about 3 √N Z sweeps, as measured for 200 to 1000 disks, ellipses,
+/// spheres and ellipsoids at Z = 6 to 26. Stages that only place the particles cost nothing.
 StageCost expected_cost(const Stage& stage, const StageScene& scene) {
   return std::visit([&](const auto& options) { return cost(options, scene); }, stage);
 }

@@ -23,13 +23,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the checkpoint of a preparation holds.
+/// The content of the checkpoint of a preparation.
 template <int Dim>
 struct PrepareCheckpoint {
-  Preparation<Dim> done;     ///< `stages` are those that have ended
-  StageState state;          ///< of the stage after them, if there is one
-  double stage_seconds = 0;  ///< wall time spent on that stage
-  std::string parameters;    ///< effective parameters, TOML
+  Preparation<Dim> done;     ///< its `stages` are those that have ended
+  StageState state;          ///< of the stage that runs next, if there is one
+  double stage_seconds = 0;  ///< wall time that this stage has taken so far
+  std::string parameters;    ///< effective parameters as TOML
 };
 
 void each_item_of_record(auto& record, auto&& visit) {
@@ -66,7 +66,7 @@ Checkpoint to_checkpoint(const PrepareCheckpoint<Dim>& preparation) {
   return checkpoint;
 }
 
-/// `stages`: of the whole preparation. Throws FileError, naming `file`, if something is missing.
+/// `stages` are those of the whole preparation. Throws FileError, naming `file`, if something is missing.
 template <int Dim>
 PrepareCheckpoint<Dim> preparation_from_checkpoint(const Checkpoint& checkpoint,
                                                    const std::vector<Stage>& stages,
@@ -78,7 +78,7 @@ PrepareCheckpoint<Dim> preparation_from_checkpoint(const Checkpoint& checkpoint,
   std::uint64_t ended = 0;
   read("stages", ended);
   preparation.done.stages.resize(ended);
-  // The number of the next sweep is among the items.
+  // The items below include the number of the next sweep, so 0 is only a placeholder.
   if (ended < stages.size()) preparation.state = first_state(stages[ended], 0);
   each_item(preparation, read);
   return preparation;
@@ -92,7 +92,7 @@ fs::path stuck_state_path(const fs::path& output) {
   return output.string() + ".stuck.h5";
 }
 
-/// How a stage ended, for a person.
+/// Says in words how a stage ended.
 std::string end_text(const StageRecord& record) {
   const Estimate& mean = record.mean_packing_fraction;
   std::string text =
@@ -108,7 +108,7 @@ void bring_to_rest(Configuration<Dim>& configuration) {
   std::ranges::fill(configuration.angular_velocity, Motion<Dim>().angular_velocity);
 }
 
-/// The parameters of a preparation that goes on; UserError if it was begun with others.
+/// The parameters of a preparation that continues. Throws UserError if it was begun with others.
 template <int Dim>
 Parameters resumed_parameters(Parameters parameters, const Checkpoint& begun,
                               const fs::path& file) {
@@ -128,7 +128,7 @@ struct MeanAndSpread {
   double mean = 0, spread = 0;
 };
 
-/// The mean and the standard deviation of the sizes in one species.
+/// The mean and the standard deviation of the sizes of one species.
 template <int Dim>
 MeanAndSpread sizes_of(const Configuration<Dim>& c, std::int32_t species) {
   std::vector<double> sizes;
@@ -143,7 +143,7 @@ MeanAndSpread sizes_of(const Configuration<Dim>& c, std::int32_t species) {
   return {mean, spread > rounding * mean ? spread : 0};
 }
 
-/// One request at work.
+/// The execution of one request.
 template <int Dim>
 class PrepareJob {
  public:
@@ -189,7 +189,7 @@ class PrepareJob {
     return request_.overlaps_allowed && is_given() && parameters().stages.size() == 1;
   }
   bool keeps_files() const { return !request_.output.empty(); }
-  /// The first stage places the particles; before its end there is nothing worth keeping.
+  /// The first stage places the particles; until it has ended there is nothing worth saving.
   bool has_places() const { return !done().stages.empty(); }
 
   void begin() {
@@ -208,7 +208,7 @@ class PrepareJob {
                                system.draw);
   }
 
-  /// Says what n particles make of the distribution of the sizes of a species.
+  /// Logs the mean and the standard deviation of the sizes that the particles of each species have drawn.
   void say_sizes() const {
     for (std::size_t k = 0; k < parameters().species.size(); ++k) {
       const MeanAndSpread sizes = sizes_of(done().configuration, static_cast<std::int32_t>(k));
@@ -245,7 +245,8 @@ class PrepareJob {
     if (keeps_files() && checkpoint_.is_due()) save();
   }
 
-  /// False if the run control asked to stop. A stage that is stopped keeps its velocities, to go on with.
+  /// Returns false if the run control requested a stop. A stopped stage keeps its velocities, so that it can
+  /// continue.
   bool run_stage() {
     const StageReport report =
         advance_stage(stage(), stored_.state,
@@ -261,7 +262,7 @@ class PrepareJob {
     return true;
   }
 
-  /// The packing fraction at which the stage at work began.
+  /// The packing fraction at which the current stage began.
   double reached() const { return has_places() ? done().stages.back().packing_fraction : 0; }
 
   void note_stage(const StageReport& report) {
@@ -290,7 +291,7 @@ class PrepareJob {
       const fs::path path = stuck_state_path(request_.output);
       write_state(path, done().configuration,
                   current_provenance(request_.command_line, stored_.parameters, seed()), true);
-      // To go on from the same place with the same parameters would lead to the same end.
+      // The same stage with the same parameters would get stuck again, so the preparation is not continued from here.
       forget_preparation(request_.output);
       kept = "; the state is in " + path.string();
     }

@@ -21,7 +21,7 @@ QualityRow decay_row(const std::string& name, const std::optional<std::uint64_t>
       remark};
 }
 
-/// `grown` is 0 if the last stage was no growth, or too short a one to measure the pressure.
+/// `grown` is the reduced pressure at the end of the last stage; 0 if that was no growth, or too short to measure it.
 void note_pressure(StateQuality& quality, double grown) {
   if (quality.decorrelation && grown < min_jammed_pressure) {
     quality.pressure_from = From::sampling;
@@ -45,7 +45,7 @@ std::string pressure_remark(const StateQuality& quality) {
              : "Monte Carlo sampling, too short for an error";
 }
 
-/// False if the run control asked to stop.
+/// Returns false if the run control requested a stop.
 template <int Dim>
 bool measure_state(StateQuality& quality, const Preparation<Dim>& preparation,
                    const Parameters& parameters, const RunControl& control, int threads) {
@@ -84,8 +84,9 @@ QualityRow gap_row(const StateQuality& quality) {
           fmt::format("exact check: {} overlaps", quality.overlaps)};
 }
 
-/// Disks and spheres are rigid only with as many contacts as they have degrees of freedom, less those of the whole, and
-/// one more against the pressure: D (N' − 1) + 1 between the N' that are held.
+/// Disks and spheres can be rigid only if there are as many contacts as degrees of freedom, less the D translations
+/// of the whole, and one more for the pressure: D (N' − 1) + 1 contacts between the N' particles that are not
+/// rattlers.
 std::string rigidity_remark(const StateQuality& quality, const JammedBackbone& backbone) {
   const std::size_t held = quality.particles - backbone.rattlers;
   if (quality.rotors > 0 || held == 0) return "";
@@ -123,7 +124,7 @@ void add_time_rows(std::vector<QualityRow>& rows, const StateQuality& quality,
                            "until the particles have moved by their width"));
 }
 
-/// The width of bins of the nematic correlation, in units of √⟨ab⟩.
+/// Bin width of the nematic correlation in units of √⟨ab⟩.
 constexpr double bin_width = 0.25;
 
 double unit_length(const Configuration2& configuration) {
@@ -148,7 +149,7 @@ void add_nematic_rows(std::vector<QualityRow>& rows, const Quality& quality) {
 }
 
 std::string components(const Mat3& tensor) {
-  // Zero without the sign of a rounding error.
+  // Adding 0.0 turns −0, which is left of a rounding error, into 0.
   const Mat3 t = (1000 * tensor).array().round() / 1000 + 0.0;
   return fmt::format("{:.3f}, {:.3f}, {:.3f}; {:.3f}, {:.3f}, {:.3f}", t(0, 0), t(1, 1), t(2, 2),
                      t(1, 2), t(0, 2), t(0, 1));

@@ -148,7 +148,7 @@ Json two_point_json(const TwoPointStatistics& found) {
           {"lineal_path_z", found.lineal_path[2]}};
 }
 
-/// What reports of earlier versions lack is unknown; their pressure is that of a growth.
+/// Fields that reports of earlier versions lack become unknown. The pressure of such a report is that of a growth.
 void read_pressure(PackingQuality& quality, const Json& report) {
   quality.reduced_pressure = {
       number_or(report.at("reduced_pressure"), unknown),
@@ -217,7 +217,7 @@ Quality read_quality(const std::filesystem::path& file, const Configuration2& st
   Quality quality;
   read_json_as("a quality report", file,
                [&](const Json& report) { quality = quality_from(report); });
-  // Other versions and libraries round the last digits otherwise.
+  // Other versions and libraries may round the last digits differently.
   const auto differ = [](double one, double two) { return !(std::abs(one - two) <= 1e-12); };
   if (quality.particles != state.size() ||
       differ(quality.packing_fraction, packing_fraction(state)) ||

@@ -4,7 +4,7 @@
 
 namespace vitrel {
 
-/// One property of a state, for a person.
+/// One property of a state in readable form.
 struct QualityRow {
   std::string name;
   std::string value;

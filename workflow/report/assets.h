@@ -4,8 +4,8 @@
 
 namespace vitrel {
 
-/// The content of a file of this folder that was compiled in ("page/report.css"). Throws
-/// std::logic_error for any other.
+/// The content of a file of this folder that is compiled into the program ("page/report.css"). Throws
+/// std::logic_error for any other file.
 std::string_view asset(std::string_view path);
 
 }  // namespace vitrel

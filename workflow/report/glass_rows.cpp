@@ -16,17 +16,17 @@ namespace {
 
 constexpr const char* not_within_run = "not within this run";
 
-/// A kind of relaxation times as a page has it.
+/// The name of a kind of relaxation time on the page.
 std::string kind_text(const std::string& kind) {
   const std::size_t comma = kind.find(',');
   const bool is_translation = kind == name_of(GlassKind::translation);
   return kind.substr(0, comma) + (is_translation ? ", τ<sub>α</sub>" : ", τ<sub>2</sub>");
 }
 
-/// What depends on the dimension of a run.
+/// Notation that depends on the dimension of a run.
 struct Notation {
   std::string unit_of_time, unit_of_length;
-  std::string_view correlation;  ///< of orientations
+  std::string_view correlation;  ///< symbol of the correlation of orientations
 
   Notation(int dimension, const std::optional<FileUnits>& units)
       : unit_of_time(" " + page_units(dimension, units).time),
@@ -42,7 +42,7 @@ struct Row {
 
   double value(const char* column) const { return table_value(study, table, column, k); }
   std::string text(const char* column) const { return table_text(study, table, column, k); }
-  /// What a code stands for; empty without the column.
+  /// The meaning of a code; empty if the column is missing.
   std::string word(const char* column) const {
     const Column* found = study.find(table)->find(column);
     return found ? label_of(*found, k).value_or("") : "";
@@ -93,7 +93,7 @@ std::string fit_row(const Row& row) {
        dof > 0 ? row.text("scatter") : "–"});
 }
 
-/// "ageing: S drifts", with the reason of that name.
+/// The verdict with its reason: "ageing: S drifts". `reason` is the key of the reason in the provenance.
 std::string verdict_text(const Row& row, const char* column, const char* reason) {
   const std::string why = row.study.text(reason);
   return row.word(column) + (why.empty() ? "" : ": " + escaped(why));
@@ -107,7 +107,7 @@ std::string verdict_rows(const Row& row) {
                   {verdict_text(row, "verdict_translation", "verdict_translation_reason"), ""});
 }
 
-/// A relaxation time, or a bound of it.
+/// A relaxation time, or a bound if the time is not known.
 std::string time_text(const Row& row, const std::string& unit_of_time) {
   if (std::isfinite(row.value("tau"))) return row.text("tau") + unit_of_time;
   if (std::isfinite(row.value("least")))
@@ -115,7 +115,7 @@ std::string time_text(const Row& row, const std::string& unit_of_time) {
   return std::isfinite(row.value("most")) ? "&lt; " + row.text("most") + unit_of_time : "–";
 }
 
-/// A row for all particles together, which are group 0; empty for other groups.
+/// The row of a relaxation time of all particles together, which are group 0; empty for other groups.
 std::string time_row(const Row& row, const Notation& notation) {
   if (row.value("group") != 0) return "";
   const std::string parameter = row.text("parameter");
@@ -123,7 +123,7 @@ std::string time_row(const Row& row, const Notation& notation) {
   constexpr std::string_view scattering = "self scattering", orientation = "orientation";
   const std::string kind = row.word("kind");
   const bool is_translation = kind.starts_with(scattering);
-  // "… relative to the cage", "… of the middle axis"
+  // The text is "… relative to the cage" or "… of the middle axis".
   const std::string what = kind.substr(is_translation ? scattering.size() : orientation.size());
   if (is_translation)
     return html_row(fmt::format("relaxation time τ<sub>α</sub>{}", what),
@@ -133,7 +133,7 @@ std::string time_row(const Row& row, const Notation& notation) {
                   {time, fmt::format("{}<sub>{}</sub>(t) = 1/e", notation.correlation, parameter)});
 }
 
-/// What order does not keep of the orientations of a nematic.
+/// The row of the relaxation of orientations in a nematic, apart from what its order keeps; empty if not nematic.
 std::string director_row(const Row& row, const Notation& notation) {
   if (!(row.value("plateau") > 0)) return "";
   const bool known = std::isfinite(row.value("tau_rotation"));
@@ -143,11 +143,11 @@ std::string director_row(const Row& row, const Notation& notation) {
                                notation.correlation, row.text("plateau"))});
 }
 
-/// Averages over the run, where they are known.
+/// The rows of averages over the run that are known.
 std::string average_rows(const Results& run, const PageUnits& units) {
   struct Average {
     const char *head, *column;
-    const char* square;  ///< what grows with the slope, if it is one
+    const char* square;  ///< the mean square whose slope it is, if any
   };
   constexpr Average averages[] = {
       {"compressibility factor Z = βP/ρ", "compressibility_factor", nullptr},

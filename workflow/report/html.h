@@ -9,16 +9,16 @@
 
 namespace vitrel {
 
-/// Name and text of everything that says how a page came about.
+/// The names and texts of everything that says how a page was made.
 using PageProvenance = std::vector<std::pair<std::string, std::string>>;
 
-/// Text that stands for itself in HTML and XML.
+/// Escapes text so that it stands for itself in HTML and XML.
 std::string escaped(std::string_view text);
 
-/// A cell of a table; the text is HTML.
+/// A cell of a table. The text must be HTML.
 std::string table_cell(const std::string& text);
 
-/// The entries of a description list; what has no text is left out.
+/// The entries of a description list. Entries without text are left out.
 std::string provenance_entries(const PageProvenance& provenance);
 
 /// The rows of a table of properties.

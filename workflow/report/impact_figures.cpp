@@ -12,7 +12,7 @@
 namespace vitrel {
 namespace {
 
-/// In the order of the source's figures.
+/// The columns of the coefficients with their symbols, in the order of the figures of mueller2013.
 constexpr std::pair<const char*, const char*> element_columns[] = {
     {"angle", "ε_φ"}, {"rate", "ε_ṙ"}, {"distance", "ε_r"}, {"duration", "ε_t"}};
 
@@ -20,25 +20,25 @@ constexpr std::pair<const char*, const char*> element_columns[] = {
 
 constexpr int lattice_side = 41, lattice_size = lattice_side * lattice_side, dampings = 5;
 
-/// What a law is tabulated over in the source.
+/// The variables over which the source tabulates a law.
 struct ScaledAxes {
   double m_min, m_max;
-  double damping_low, damping_high;  ///< ln c_dis, or ln c_dis/c_dis^min
+  double damping_low, damping_high;  ///< range of ln c_dis, or of ln c_dis/c_dis^min
   double c_min;
   const char *column, *symbol;  ///< of the damping
 
-  /// −∞ of the first map, which is elastic.
+  /// The damping of a map; −∞ for the first map, which is elastic.
   double damping_of(int map) const {
     const double share = static_cast<double>(map - 1) / (dampings - 1);
     return map == 0 ? -infinity : damping_low + share * (damping_high - damping_low);
   }
 };
-constexpr double g_min = -4.605120, g_max = 1.948493;  // ln(e/√(1 − e²))
+constexpr double g_min = -4.605120, g_max = 1.948493;  // ln(e/√(1 − e²)) of the eccentricities e
 constexpr ScaledAxes dashpot_axes{-2.3, 14.83, -12.47, 4.00, 0, "ln_c_dis", "ln c_dis"};
 constexpr ScaledAxes viscoelastic_axes{
     0.75, 13.66, 0, 9.84 + 18.71, -18.71, "ln_c_dis_over_min", "ln c_dis/c_dis,min"};
 
-/// Row k of all maps.
+/// Row k of the table that holds all maps one after the other.
 std::vector<double> scaled_row(const ScaledAxes& of, const ForceForm& form, int k) {
   const double g = (g_max - g_min) * (k % lattice_side) / (lattice_side - 1);
   const double m = (of.m_max - of.m_min) * (k / lattice_side % lattice_side) / (lattice_side - 1);
@@ -63,7 +63,8 @@ Relative flown(const Relative& from, double time) {
   return {from.position + time * from.velocity, from.velocity};
 }
 
-/// At every part of a seventh from first contact on, by the midpoint rule; errors ∝ step².
+/// Integrates the contact by the midpoint rule, with errors ∝ step². The path has a point at first contact and after
+/// every `interval`.
 std::vector<Relative> integrated_path(const Impact& impact, Relative at, double interval,
                                       int count) {
   constexpr int steps = 2000;
@@ -71,7 +72,8 @@ std::vector<Relative> integrated_path(const Impact& impact, Relative at, double 
   const ContactPair pair = impact.pair();
   const auto acceleration = [&](const Relative& x) -> Vec2 {
     const double distance = x.position.norm(), compression = pair.distance - distance;
-    if (compression < -1e-12 * pair.distance) return Vec2::Zero();  // not by rounding
+    // The spheres have separated if the gap is more than rounding.
+    if (compression < -1e-12 * pair.distance) return Vec2::Zero();
     const Vec2 normal = x.position / distance;
     const double force =
         contact_force(impact.contact, pair, std::max(0.0, compression), -normal.dot(x.velocity));

@@ -25,7 +25,7 @@ constexpr std::size_t frames_at_a_time = 32;
 constexpr std::size_t characters_per_jump = 16, characters_per_image = 12;
 constexpr std::size_t not_shown = std::numeric_limits<std::size_t>::max();
 
-/// Evenly spaced indices into `frames`, the first and the last included.
+/// Evenly spaced indices of frames, including the first and the last; the last alone if only one is wanted.
 std::vector<std::size_t> shown_frames(std::size_t frames, std::size_t wanted) {
   if (wanted <= 1 || frames == 1) return {frames - 1};
   const std::size_t count = std::min(frames, wanted);
@@ -35,7 +35,7 @@ std::vector<std::size_t> shown_frames(std::size_t frames, std::size_t wanted) {
   return shown;
 }
 
-/// The bodies and images that meet the window.
+/// The bodies, including images, that meet the window.
 std::vector<BodyInBox> shown_bodies(const Configuration3& state, const Vec3& window) {
   std::vector<BodyInBox> bodies = bodies_in_box(state);
   if (window.x() == 1) return bodies;
@@ -48,7 +48,7 @@ std::vector<BodyInBox> shown_bodies(const Configuration3& state, const Vec3& win
   return bodies;
 }
 
-/// All particles, or those in the middle of the box, ascending.
+/// All particles, or those in the middle of the box, in ascending order.
 std::vector<std::size_t> shown_particles(const Configuration2& state, const Vec2& window) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < state.size(); ++i) {
@@ -81,7 +81,7 @@ void take_orientation(const Configuration3& state, std::size_t i,
     poses.push_back(low_bits(part * quaternion_steps));
 }
 
-/// In a page, where base64 makes four characters of three bytes.
+/// The size of the movie in a page, where base64 turns three bytes into four characters.
 template <int Dim>
 std::size_t characters(const Movie<Dim>& movie) {
   std::size_t images = 0;
@@ -96,7 +96,7 @@ class Camera {
   Camera(Trajectory<Dim>& trajectory, const MovieLimits& limits)
       : trajectory_(trajectory), limits_(limits) {}
 
-  /// Chooses the particles in the first frame, then takes the poses of all.
+  /// Chooses the particles in the first frame, then stores the poses of all frames.
   const Movie<Dim>& take(std::size_t wanted) {
     movie_ = {};
     movie_.run_frames = trajectory_.frames();
@@ -109,7 +109,7 @@ class Camera {
     return movie_;
   }
 
-  /// Checks what was taken, a few frames at a time on all cores.
+  /// Checks the stored frames for overlaps, a few at a time on all cores.
   Movie<Dim> checked() {
     for (std::size_t first = 0; first < frames_.size(); first += frames_at_a_time) {
       std::vector<Configuration<Dim>> states;
@@ -185,8 +185,8 @@ class Camera {
   MovieLimits limits_;
   Movie<Dim> movie_;
   std::vector<std::size_t> frames_, shown_;
-  std::vector<std::size_t> place_;                    // of every particle among those shown
-  std::vector<std::array<std::int64_t, Dim>> steps_;  // of the frame before, unwrapped
+  std::vector<std::size_t> place_;  // index of every particle among the shown ones
+  std::vector<std::array<std::int64_t, Dim>> steps_;  // unwrapped coordinates in the previous frame
 };
 
 Json rounded(const auto& numbers) {
@@ -195,7 +195,7 @@ Json rounded(const auto& numbers) {
   return array;
 }
 
-/// The box of every frame; a single one if it is always the same.
+/// The boxes of all frames, or a single box if it does not change.
 Json boxes_data(const auto& boxes) {
   Json data = Json::array();
   for (const auto& box : boxes) data.push_back(rounded(box));
@@ -203,7 +203,7 @@ Json boxes_data(const auto& boxes) {
   return data;
 }
 
-/// Adds "shapes": all different semi-axes, and "shape": for every particle which of them it has.
+/// Adds "shapes", which lists all different semi-axes, and "shape", the index in it for every particle.
 template <class Shape>
 void add_shapes(Json& data, const std::vector<Shape>& bodies) {
   std::map<std::vector<double>, std::size_t> known;
@@ -219,7 +219,7 @@ void add_shapes(Json& data, const std::vector<Shape>& bodies) {
   data["shape"] = std::move(shape);
 }
 
-/// Frame, particle and shift of each.
+/// Lists the frame, particle and shift of each jump.
 template <int Dim>
 Json jumps_data(const Movie<Dim>& movie) {
   Json data = Json::array();
@@ -230,7 +230,7 @@ Json jumps_data(const Movie<Dim>& movie) {
   return data;
 }
 
-/// For every frame particle and shift of each, one after another.
+/// Lists, for every frame, the particle and shift of each image, one after another.
 Json images_data(const Movie3& movie) {
   Json data = Json::array();
   for (const std::vector<Movie3::Image>& images : movie.images) {

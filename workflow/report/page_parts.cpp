@@ -13,7 +13,8 @@ namespace vitrel {
 Json page_number(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   const double rounded = std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
-  return std::isfinite(rounded) ? Json(rounded) : Json(value);  // near the largest number
+  // Rounding may overflow near the largest number.
+  return std::isfinite(rounded) ? Json(rounded) : Json(value);
 }
 
 Json page_numbers(const std::vector<double>& values, const std::vector<std::size_t>& rows,
@@ -48,7 +49,7 @@ std::string filled(std::string_view page,
 
 namespace {
 
-/// By the units of columns.
+/// The names of units on the page by the units of columns.
 Json unit_names(const PageUnits& units) {
   return {{"1", ""},
           {"length", units.length},

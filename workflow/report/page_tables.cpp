@@ -20,7 +20,8 @@ namespace vitrel {
 namespace {
 
 constexpr int error_digits = 3;
-// Charts need numbers of the run, wave numbers or lags; those of a study are no observables of one run.
+// Tables that pages need although the observables of a run give them no charts: charts need the numbers of the run,
+// wave numbers or lags, and tables of a study are no observables of a single run.
 constexpr std::array<std::string_view, 7> without_charts = {
     "summary",   "wave_numbers", "lag_times",          "relaxation",
     "glass_fit", "published",    "published_exponents"};
@@ -38,7 +39,7 @@ bool has_logarithmic_rows(const Observable* observable) {
                         }));
 }
 
-/// Rows far enough apart on a logarithmic axis.
+/// Selects rows that are far enough apart on a logarithmic axis.
 std::vector<std::size_t> logarithmic_rows(const std::vector<double>& time, double rows_per_decade) {
   const double growth = std::pow(10, 1 / rows_per_decade) * (1 - 1e-9);
   std::vector<std::size_t> rows;
@@ -53,7 +54,7 @@ std::vector<std::size_t> every(std::size_t stride, std::size_t size) {
   return rows;
 }
 
-/// Codes as what they stand for.
+/// The meanings of the codes in the given rows.
 Json page_labels(const Column& column, const std::vector<std::size_t>& rows) {
   Json labels = Json::array();
   for (const std::size_t row : rows) {

@@ -8,36 +8,35 @@
 #include "core/io/json.h"
 
 /// @file
-/// Tables of results, as the pages carry and show them.
+/// Tables of results in the form in which pages contain and show them.
 namespace vitrel {
 
-/// How many rows tables keep at most.
+/// The largest number of rows that tables keep.
 struct Thinning {
-  double rows_per_decade = 20;  ///< of correlations, whose first column is the time
-  std::size_t max_rows =
-      400;  ///< evenly, of energies, compressibility_factor, order and all others
+  double rows_per_decade = 20;  ///< for correlations, whose first column is the time
+  /// The limit for energies, compressibility_factor, order and all other tables, which are thinned evenly.
+  std::size_t max_rows = 400;
 };
 
-/// For the script: a table by its name; in it the columns by theirs, with unit, value and error (if
-/// there is any), and the stride that evenly spaced rows were thinned by. Tables that no chart needs stay
-/// out.
+/// The tables for the script, by name. Each has its columns by name, with unit, value and, if there is one, error,
+/// and the stride by which evenly spaced rows were thinned. Tables that no chart needs are left out.
 Json tables_data(const Results& results, const std::vector<Observable>& observables,
                  const Thinning& thinning = {});
 
-/// One table with all its rows, codes as what they stand for.
+/// One table with all its rows, in which codes are replaced by their meanings.
 Json table_data(const Table& table);
 
-/// For the script: the charts of all these tables, with all that a Chart says.
+/// The charts of all these tables for the script, with all members of Chart.
 Json charts_data(const std::vector<Observable>& observables);
 
-/// A packing fraction with two decimals if that is exact, else four: 0.50, 0.7125.
+/// A packing fraction with two decimals if these are exact, else with four: 0.50, 0.7125.
 std::string density_text(double phi);
 
-/// The one number, or one of several, of a column, with its error as "1.234 ± 0.012"; "–" if the
-/// table, the column or the number is not there.
+/// The number in this row of a column, with its error: "1.234 ± 0.012". The text is "–" if the table, the column or
+/// the row is missing.
 std::string table_text(const Results& results, const std::string& table, const std::string& column,
                        std::size_t row = 0);
-/// NaN if it is not there.
+/// The number in this row of a column; NaN if it is missing.
 double table_value(const Results& results, const std::string& table, const std::string& column,
                    std::size_t row = 0);
 

@@ -30,7 +30,7 @@ Json run_data(const ReportRun& run, const std::vector<Observable>& observables,
           {"movie", movie_data(run.movie)}};
 }
 
-/// The table of all jobs, which only a sweep has.
+/// The table of all jobs; null unless the page is about a sweep.
 const Table* jobs_of(const ReportData& data) {
   return data.runs.size() > 1 ? data.study.find("runs") : nullptr;
 }
@@ -49,7 +49,7 @@ Json study_data(const ReportData& data) {
   return study;
 }
 
-/// By the names of runs, where they differ in more than their density.
+/// The labels by the names of runs; empty if runs differ in their packing fraction only.
 std::map<std::string, std::string> labels_of(const ReportData& data) {
   std::map<std::string, std::string> labels;
   if (data.axes.size() > 1)
@@ -57,7 +57,7 @@ std::map<std::string, std::string> labels_of(const ReportData& data) {
   return labels;
 }
 
-/// Heading and rows.
+/// The heading and the rows of the table of runs.
 std::pair<std::string, std::string> table_of_runs(const ReportData& data, const PageUnits& units) {
   const Table* summary = data.runs.empty() ? nullptr : data.runs.front().results.find("summary");
   const Table* jobs = jobs_of(data);
@@ -82,7 +82,7 @@ bool is_shared(const std::vector<ReportRun>& runs, std::size_t k) {
   });
 }
 
-/// What the runs share, then what is said of the page.
+/// The provenance that all runs share, followed by that of the page.
 PageProvenance shared_provenance(const ReportData& data) {
   PageProvenance shared;
   if (!data.runs.empty())
@@ -92,7 +92,7 @@ PageProvenance shared_provenance(const ReportData& data) {
   return shared;
 }
 
-/// A table of what the runs do not share; empty if there is nothing.
+/// A table of the provenance that runs do not share; empty if they share everything.
 std::string job_provenance(const std::vector<ReportRun>& runs) {
   std::string head, rows;
   std::vector<std::size_t> columns;
@@ -110,14 +110,14 @@ std::string job_provenance(const std::vector<ReportRun>& runs) {
   return filled(asset("page/job_provenance.html"), {{"head", head}, {"rows", rows}});
 }
 
-/// The section about a single run that cools; else empty.
+/// The section about the cooling of a single run; empty if the page has several runs, or if the run does not cool.
 std::string cooling_section(const std::vector<ReportRun>& runs, int dimension) {
   if (runs.size() != 1 || !runs.front().cooling) return "";
   const Cooling& cooling = *runs.front().cooling;
   return cooling_section(cooling, haff_law(cooling, runs.front().results, dimension), dimension);
 }
 
-/// The verdict on a single run, and its relaxation times.
+/// The section with the verdict on a single run and its relaxation times; empty if the page has several runs.
 std::string result_section(const ReportData& data, int dimension) {
   if (data.runs.size() != 1) return "";
   const std::string rows = result_rows(data.runs.front().results, dimension, data.units);

@@ -14,14 +14,14 @@
 namespace vitrel {
 namespace {
 
-/// None if the file does not say.
+/// The parameters that the file stores; no value if it stores none.
 std::optional<Parameters> stored_parameters(const TrajectoryReader& reader) {
   const std::string parameters = reader.provenance().parameters;
   if (parameters.empty()) return std::nullopt;
   return parse_parameters(parameters, reader.path().string());
 }
 
-/// Whether runs with other seeds have other particles.
+/// Whether runs with other seeds draw other particles.
 bool has_particles_of_its_own(const std::optional<Parameters>& parameters) {
   return parameters && parameters->system.draw == ShapeDraw::random &&
          !std::ranges::all_of(parameters->species, &Species::has_one_shape);
@@ -43,7 +43,7 @@ std::string dynamics_text(const DynamicsParameters& p) {
   return text;
 }
 
-/// Which of Haff's laws holds; none for dynamics that conserve the energy or draw velocities again.
+/// The law of Haff that holds for the dynamics; no value if they conserve the energy or redraw velocities.
 std::optional<Cooling> cooling_of(const DynamicsParameters& p) {
   if (p.kind == DynamicsParameters::Kind::brownian || p.driving) return std::nullopt;
   if (cools_by_haff(p))
@@ -67,7 +67,7 @@ std::optional<Cooling> cooling_of(const DynamicsParameters& p) {
 
 constexpr std::size_t max_movies = 6;
 
-/// How many characters the movie of every run may take.
+/// The number of characters available for the movie of each run.
 std::vector<std::size_t> movie_room(std::size_t runs) {
   const std::size_t all = MovieLimits{}.characters;
   if (runs == 1) return {all};
@@ -77,7 +77,7 @@ std::vector<std::size_t> movie_room(std::size_t runs) {
   return room;
 }
 
-/// Adds what the run cost to its summary. A run in progress does not record the time, nor do other programs.
+/// Adds the cost of the run to its summary. Runs in progress and other programs do not record the time.
 void add_cost(const TrajectoryReader& reader, Results& results) {
   const double seconds = reader.provenance().wall_seconds;
   if (!(seconds > 0) || !reader.import_report().empty() || !reader.has_observable("collisions"))
@@ -111,16 +111,16 @@ ReportRun report_run(const AnalysedRun& run, const std::string& label,
   return shown;
 }
 
-/// The one text of all of these; empty if they differ.
+/// The text that all of these share; empty if they differ.
 std::string shared_text(const std::set<std::string>& texts) {
   return texts.size() == 1 ? *texts.begin() : "";
 }
 
-/// What the page says of the runs besides their tables.
+/// The texts about the runs that appear on the page besides their tables.
 struct Titles {
   std::set<std::string> particles, dynamics;
 
-  /// "100 ellipses, κ = 2, Newtonian", as far as it holds for all.
+  /// "100 ellipses, κ = 2, Newtonian", without the parts in which runs differ.
   std::string shared() const {
     const std::string of_particles = shared_text(particles), of_dynamics = shared_text(dynamics);
     return of_particles + (of_particles.empty() || of_dynamics.empty() ? "" : ", ") + of_dynamics;
@@ -152,7 +152,7 @@ void add_run(const AnalysedRun& run, const std::string& label, const KnownSystem
   (in_plane ? add_run<2> : add_run<3>)(run, label, known, room, data, titles);
 }
 
-/// The last part of a dotted key, with blanks.
+/// The last part of a dotted key, with blanks instead of underscores.
 std::string words(const std::string& key) {
   std::string last = last_part(key);
   std::ranges::replace(last, '_', ' ');
@@ -209,7 +209,7 @@ ReportData report_data(const AnalysedSweep& sweep) {
   const std::vector<std::size_t> room = movie_room(sweep.runs.size());
   for (std::size_t k = 0; k < sweep.runs.size(); ++k)
     add_run(sweep.runs[k], sweep.label(k), {}, room[k], data, titles);
-  // The folder of the sweep, in which every job has a folder of its own.
+  // The title is the name of the folder of the sweep, in which every job has a folder of its own.
   const std::filesystem::path file = std::filesystem::absolute(sweep.runs.front().file);
   data.title = file.lexically_normal().parent_path().parent_path().filename().string();
   data.subtitle = fmt::format("{} jobs", sweep.runs.size());

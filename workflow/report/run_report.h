@@ -10,14 +10,14 @@
 
 namespace vitrel {
 
-/// "ellipses, κ = 2" or "ellipsoids, 5 : 1 : 1" for equal particles; of several species "spheres of species
-/// A, B" if all are round, else "particles of species A, B".
+/// Describes equal particles as "ellipses, κ = 2" or "ellipsoids, 5 : 1 : 1", and several species as "spheres of
+/// species A, B" if all are round, else as "particles of species A, B".
 template <int Dim>
 std::string particles_text(const Configuration<Dim>& state);
 
-/// The report's view of a run, or of the jobs of a sweep in their order. Reads the files again, for the movies: one run has
-/// all the room for movies (MovieLimits); of several, six spread evenly over them share half of it, and the others show
-/// their final state. `known`: of a file of another program.
+/// The data of the report of a run, or of the jobs of a sweep in their order. Reads the files again for the movies. A
+/// single run has all the room for movies (MovieLimits). Of several runs, six that are spread evenly over them share
+/// half of it, and the others show their final state. `known` describes a file of another program.
 ReportData report_data(const AnalysedRun& run, const KnownSystem& known = {});
 ReportData report_data(const AnalysedSweep& sweep);
 

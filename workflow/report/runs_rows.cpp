@@ -13,11 +13,11 @@ namespace vitrel {
 namespace {
 
 struct Quantity {
-  const char* symbol;  ///< HTML
+  const char* symbol;  ///< as HTML
   const char* column;
   bool is_count = false;
-  bool is_of_motion = false;  ///< a state has none
-  bool is_exception = false;  ///< left out if no run has any
+  bool is_of_motion = false;  ///< left out if all runs are states
+  bool is_exception = false;  ///< left out if it is 0 in all runs
 };
 
 constexpr Quantity quantities[] = {{"Z", "compressibility_factor"},
@@ -47,7 +47,7 @@ bool differs(const Column& column) {
                              [&](double value) { return value != column.value.front(); });
 }
 
-/// The column, if some run has a value.
+/// Finds the column; null if no run has a value in it.
 const Column* shown(const Table& table, const std::string& name) {
   const Column* column = table.find(name);
   const auto is_known = [](double value) { return std::isfinite(value); };

@@ -10,16 +10,16 @@
 /// The table of runs as HTML.
 namespace vitrel {
 
-/// What the table shows: a run in each row, and what the sweep runs through in its first columns.
+/// The content of the table: one run per row, with the parameters of the sweep in the first columns.
 struct RunsTable {
-  const Table& values;               ///< with a row for every run, such as `runs` of a sweep
+  const Table& values;               ///< has a row for every run, as the table `runs` of a sweep
   std::vector<std::string> keys;     ///< names of the first columns
-  std::vector<std::string> symbols;  ///< of these
+  std::vector<std::string> symbols;  ///< of the first columns
   std::vector<std::string> names;    ///< of the runs
 };
 
-/// Its heading in two rows, symbols and units. Quantities that no run has are left out, and so is the seed if all have
-/// the same.
+/// The heading in two rows, with symbols and units. Quantities that no run has are left out, and so is the seed if
+/// all runs have the same.
 std::string runs_heading(const RunsTable& table, const PageUnits& units);
 std::string runs_rows(const RunsTable& table);
 

@@ -13,7 +13,7 @@ namespace vitrel {
 
 namespace {
 
-/// Null without values.
+/// The points of a curve; null if there are no values.
 Json curve(const std::vector<double>& abscissa, const std::vector<double>& value) {
   if (value.empty()) return nullptr;
   std::vector<std::size_t> rows(value.size());
@@ -21,7 +21,7 @@ Json curve(const std::vector<double>& abscissa, const std::vector<double>& value
   return {{"time", page_numbers(abscissa, rows)}, {"value", page_numbers(value, rows)}};
 }
 
-/// Bins with pairs only.
+/// The correlation in the bins that contain pairs; null if there are none.
 Json correlation(const NematicCorrelation& correlation) {
   std::vector<std::size_t> rows;
   std::vector<double> error;

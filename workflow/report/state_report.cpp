@@ -17,8 +17,8 @@ StructureOptions structure_options(const std::string& parameters, const std::str
   return parse_parameters(parameters, file).structure;
 }
 
-/// S(q) and g(r); the page has the correlation of orientations in bins wide enough for a single state, in which
-/// g(r, θ) would be noise.
+/// The tables of S(q) and g(r). For the correlation of orientations the page uses bins wide enough for a single
+/// state, since g(r, θ) would be noise.
 std::vector<Table> structure(MemoryTrajectory2& trajectory, const StructureOptions& options) {
   std::vector<Table> tables =
       measure_frames(trajectory, options, all_cores, {}, {"structure_factor", "pair_correlation"})
@@ -32,7 +32,7 @@ std::vector<Table> structure(MemoryTrajectory2& trajectory, const StructureOptio
   return tables;
 }
 
-/// With what the file says of itself.
+/// A page with the parameters, provenance and units that the file states.
 StatePage page_of_file(const TrajectoryReader& reader) {
   const Provenance provenance = reader.provenance();
   StatePage page;

@@ -7,14 +7,13 @@
 
 namespace vitrel {
 
-/// What the page of a prepared state of the plane shows, from the file of the state and the quality report beside it.
-/// Throws FileError.
-/// `known`: of files of other programs.
+/// The data of the page of a prepared state in the plane, from the file of the state and the quality report beside
+/// it. `known` describes a file of another program. Throws FileError.
 StatePage state_page_data(const std::filesystem::path& file, const KnownSystem& known = {});
 
-/// What the page of a packing on file shows: the bodies (of more than 10 000 those in the middle), their
-/// exact check, quality and structure. The quality report of vitrel prepare, if there is one beside the file,
-/// adds what only the preparation knows. Throws FileError or UserError, naming the file.
+/// The data of the page of a packing on file: the bodies (those in the middle if there are more than 10 000), their
+/// exact check, quality and structure. If there is a quality report of vitrel prepare beside the file, it adds what
+/// only the preparation knows. Throws FileError or UserError, naming the file.
 StatePage packing_page_data(const std::filesystem::path& file, const AnalysisChoice& choice,
                             const AnalysisProgress& progress = {});
 

@@ -28,7 +28,7 @@ fs::path failed_state_path(const fs::path& output) {
   return output.string() + ".failed.h5";
 }
 
-/// Two observers, of which the second may be missing.
+/// Passes frames on to two observers, of which the second may be missing.
 template <int Dim>
 class Observers final : public Observer<Dim> {
  public:
@@ -43,7 +43,7 @@ class Observers final : public Observer<Dim> {
   Observer<Dim>* second_;
 };
 
-/// One request at work.
+/// The execution of one request.
 template <int Dim>
 class RunJob {
  public:
@@ -90,7 +90,7 @@ class RunJob {
     is_longer_ = stored_.parameters != checkpoint.parameters;
   }
 
-  // False if the preparation was stopped.
+  // Returns false if the preparation was stopped.
   bool begin() {
     Preparation<Dim> preparation = prepare<Dim>(preparation_request(request_), control_, log_);
     if (!preparation.complete) return false;
@@ -100,7 +100,8 @@ class RunJob {
     set_velocities(configuration, request_.parameters);
     stored_.state = begin_run(configuration, -request_.parameters.dynamics.equilibration);
     forget_correlations(request_.output);
-    // Before the trajectory: one without a checkpoint is never this run's.
+    // The checkpoint comes before the trajectory, because a trajectory without a checkpoint is never taken for this
+    // run's.
     save();
     forget_preparation(request_.output);
     return true;
@@ -166,7 +167,7 @@ class RunJob {
                       &observers, [&](const RunState<Dim>&) {
                         stored_.wall_seconds = timer.seconds();
                         if (!checkpoint_.is_due()) return;
-                        // The disk has the frames before a checkpoint counts them.
+                        // The frames must be on disk before a checkpoint counts them.
                         writer.synchronize();
                         save();
                       }};
@@ -194,7 +195,8 @@ class RunJob {
     return true;
   }
 
-  /// The checkpoint before that of the end must be one of before the end again, however short the rest is.
+  /// Saves a checkpoint that is not complete, so that the previous checkpoint lies before the end again, however
+  /// short the rest of the run is.
   void begin_longer(TrajectoryWriter& writer) {
     writer.record_parameters(stored_.parameters);
     writer.synchronize();
@@ -229,7 +231,7 @@ class RunJob {
                 true);
   }
 
-  /// Contacts that did not follow their law count in the summary. If they are many, the results are not those of the
+  /// The summary counts contacts that did not follow their law. If there are many, the results do not represent that
   /// law.
   void warn_of_exceptions() const {
     constexpr double acceptable_share = 0.05;
@@ -271,14 +273,15 @@ class RunJob {
         overlaps, failed_state_path(request_.output).string()));
   }
 
-  RunRequest request_;  ///< its species become those of the state that the run starts from
+  /// The request. Its species become those of the state from which the run starts.
+  RunRequest request_;
   const RunControl& control_;
   const Log& log_;
   Observer<Dim>* observer_;  ///< of the caller; may be null
   CheckpointFile checkpoint_;
   RunCheckpoint<Dim> stored_;
   std::optional<MultipleTau<Dim>> correlator_;  ///< on the fly, if the parameters ask for it
-  bool is_longer_ = false;                      ///< than it was when it was last worked on
+  bool is_longer_ = false;  ///< whether the duration was increased since the last checkpoint
 };
 
 }  // namespace

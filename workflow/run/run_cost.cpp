@@ -8,20 +8,21 @@
 namespace vitrel {
 namespace {
 
-/// Measured with `vitrel-bench engine`.
+/// Times measured with `vitrel-bench engine`.
 double seconds_per_event(int dimension, bool is_round) {
   if (is_round) return dimension == 2 ? 0.3e-6 : 0.5e-6;
   return dimension == 2 ? 1e-6 : 3e-6;
 }
 
-/// Measured: the process without particles, and what each adds.
+/// Bytes measured: those of the process without particles, and those of each particle.
 double memory(int dimension, bool is_round, double particles) {
   constexpr double program = 20e6;
   const double each = dimension == 2 ? 900 : is_round ? 1300 : 2100;
   return program + each * particles;
 }
 
-/// Positions and velocities, three numbers each, orientations, angular velocities, and images of 16 bits.
+/// A frame holds positions and velocities of three components, orientations, angular velocities, and image numbers of
+/// 16 bits.
 double disk(const Parameters& p, int dimension, double particles) {
   constexpr double file = 50e3, per_frame = 300, of_particle = 44;
   const double bytes = p.output.precision == OutputParameters::Precision::single ? 4 : 8;
@@ -32,7 +33,7 @@ double disk(const Parameters& p, int dimension, double particles) {
   return file + of_particle * particles + frames * (per_frame + per_particle * particles);
 }
 
-/// How often all velocities change between collisions: in Brownian steps, or by kicks.
+/// How often all velocities change, other than by collisions: at Brownian steps or kicks.
 double velocity_changes(const DynamicsParameters& p) {
   const double time = p.equilibration + p.duration;
   if (p.kind == DynamicsParameters::Kind::brownian) return time / p.brownian_step;
@@ -62,7 +63,7 @@ RunCost run_cost(const Parameters& p, const Configuration<Dim>& some) {
   RunCost cost;
   cost.collisions = particles * time * fluid.collision_rate(p.system.packing_fraction);
   cost.events = HardFluid::events_per_collision * cost.collisions;
-  // Each change of the velocities predicts all particles, at about the cost of an event.
+  // Each change of the velocities predicts the events of all particles, each at about the cost of an event.
   cost.seconds =
       (cost.events + particles * velocity_changes(p.dynamics)) * seconds_per_event(Dim, is_round);
   cost.memory_bytes = memory(Dim, is_round, particles);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the run starts, with the plan of a preparation; the species of the request become those that run.
+/// Says where the run starts, with the plan of a preparation. The species of the request become those of the run.
 template <int Dim>
 std::string start_text(RunRequest& request) {
   const fs::path checkpoint = checkpoint_path(request.output);
@@ -41,13 +41,14 @@ std::string start_text(RunRequest& request) {
   }
   require_same_preparation<Dim>(preparation);
   const std::string plan = preparation_plan(request.parameters, state);
-  state = representative_particles<Dim>(request.parameters);  // at rest, as after other stages
+  // Stages leave the particles at rest, so the velocities of a given state are lost.
+  state = representative_particles<Dim>(request.parameters);
   set_velocities(state, request.parameters);
   return fmt::format("a preparation in {} stage{}\n{}", stages.size(),
                      stages.size() == 1 ? "" : "s", plan);
 }
 
-/// More than there is of it is a warning.
+/// Returns a warning if the run needs more than is available, else an empty text.
 std::string room_text(double needed, double available, const char* what) {
   constexpr double megabyte = 1e6;
   if (needed <= available) return "";
@@ -64,7 +65,7 @@ double free_disk(const fs::path& output) {
   return static_cast<double>(fs::space(fs::absolute(output).parent_path(), unknown).available);
 }
 
-/// A warning of Brownian steps that are too long.
+/// Returns a warning if the Brownian steps are too long, else an empty text.
 template <int Dim>
 std::string step_text(const DynamicsParameters& p, const Configuration<Dim>& some) {
   if (p.kind != DynamicsParameters::Kind::brownian) return "";

@@ -26,12 +26,12 @@ void refuse_changes(const Parameters& parameters, const std::string& begun_with,
                     output.string(), change->key, change->first, change->second));
 }
 
-/// What keeps the file from being the trajectory of the run, if anything.
+/// Says why the file cannot be the trajectory of the run; no value if it can.
 template <int Dim>
 std::optional<std::string> difference(const TrajectoryReader& trajectory,
                                       const RunCheckpoint<Dim>& run, const Parameters& recorded) {
   if (trajectory.dimension() != Dim) return "is of another dimension";
-  // Versions differ in what they record.
+  // Versions differ in the parameters that they record, so effective parameters are compared.
   const Parameters written =
       recorded_parameters(trajectory.provenance().parameters, trajectory.path().string());
   if (const auto change = forbidden_change(effective_parameters(written),
@@ -54,7 +54,7 @@ std::optional<std::string> difference(const TrajectoryReader& trajectory,
   return std::nullopt;
 }
 
-/// Frames that a checkpoint counts must be in the trajectory; one that counts none may come before it. `recorded` are
+/// The trajectory must exist and hold the frames that the checkpoint counts, unless it counts none. `recorded` are
 /// the parameters of the run.
 template <int Dim>
 void require_trajectory(const RunCheckpoint<Dim>& run, const Parameters& recorded,
@@ -89,7 +89,7 @@ void each_item(auto& run, auto&& visit) {
   visit("complete", run.complete);
 }
 
-/// Throws FileError, naming `file`, if a number is missing, or it is of the other dimension.
+/// Throws FileError, naming `file`, if a number is missing or if the checkpoint is of the other dimension.
 template <int Dim>
 RunCheckpoint<Dim> run_from_checkpoint(const Checkpoint& checkpoint,
                                        const std::filesystem::path& file) {
@@ -103,8 +103,8 @@ RunCheckpoint<Dim> run_from_checkpoint(const Checkpoint& checkpoint,
   return run;
 }
 
-/// The checkpoint before the last one of a complete run. The last is of the end, where a longer run would not have
-/// stopped: to go on from there would differ by rounding.
+/// Returns the checkpoint before the last one of a complete run. The last one is at the end, where a longer run would
+/// not have stopped, so continuing from there would change the rounding.
 template <int Dim>
 RunCheckpoint<Dim> before_the_end(const fs::path& checkpoint) {
   const auto refusal = [&](const std::string& why) {
@@ -133,11 +133,11 @@ template <int Dim>
 RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint) {
   const fs::path file = checkpoint_path(request.output);
   const auto* state = std::get_if<Configuration<Dim>>(&checkpoint.configuration);
-  // Defaults are not the same in all versions.
+  // Defaults differ between versions; this restores those of the version that began the run.
   const Parameters recorded = recorded_parameters(checkpoint.parameters, file.string());
   if (start_state(request.parameters.stages) && state) {
     take_system(request.parameters, *state, file.string(), checkpoint.parameters);
-    // Earlier versions recorded the stages of the parameter file, which they did not use.
+    // Earlier versions recorded the stages of the parameter file even though the run did not use them.
     if (!start_state(recorded.stages)) request.parameters.stages = recorded.stages;
   }
   request.parameters = continued(request.parameters, recorded);
@@ -180,10 +180,10 @@ void set_velocities(Configuration<Dim>& configuration, const Parameters& paramet
         "use \"maxwell\", or start (--from) from a run with velocities");
 }
 
-// Before time 0 the run equilibrates.
+// The run equilibrates before time 0.
 std::string time_text(double time, double start) {
   return time < 0 ? fmt::format("time {:.6g} of {:.6g} of the equilibration", time - start, -start)
-                  : fmt::format("time {:.6g}", time + 0.);  // no −0
+                  : fmt::format("time {:.6g}", time + 0.);  // + 0. turns −0 into 0
 }
 
 template <int Dim>

@@ -10,8 +10,8 @@ namespace vitrel {
 
 struct CompressionState;
 
-/// Monte Carlo at constant pressure (mc/compression.h), up to a packing fraction or, without one, for a number
-/// of sweeps.
+/// Monte Carlo at constant pressure (mc/compression.h). It ends at a packing fraction if one is given, else after a
+/// number of sweeps.
 struct CompressStage : StageDefaults {
   using State = CompressionState;
   static constexpr const char* method = "compress";
@@ -19,10 +19,10 @@ struct CompressStage : StageDefaults {
       "Monte Carlo at constant pressure, in a box of variable size";
 
   std::optional<double> packing_fraction;
-  std::uint64_t max_sweeps = SwellingOptions().sweeps;  ///< with a packing fraction
+  std::uint64_t max_sweeps = SwellingOptions().sweeps;  ///< if a packing fraction is given
   double pressure = CompressionOptions().pressure;
   BoxChange box = CompressionOptions().change;
-  std::uint64_t sweeps = CompressionOptions().sweeps;  ///< without one
+  std::uint64_t sweeps = CompressionOptions().sweeps;  ///< if no packing fraction is given
 
   static std::vector<StageField<CompressStage>> fields();
   StageEnding ending() const { return ending_known_if(packing_fraction.has_value()); }

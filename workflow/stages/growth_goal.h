@@ -25,7 +25,7 @@ struct GrowthGoal : StageDefaults {
                ? fmt::format("{} to reduced pressure {:.4g}", S::method, *reduced_pressure)
                : "";
   }
-  /// `end`: of the stage (end_of_stage).
+  /// `end` is the packing fraction at which the stage ends (end_of_stage).
   std::optional<double> packing_fraction_goal(double end) const {
     return reduced_pressure ? packing_fraction : end;
   }

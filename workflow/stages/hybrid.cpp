@@ -8,7 +8,7 @@
 namespace vitrel {
 namespace {
 
-/// Growth of all lengths in one stretch times Z, at most.
+/// Upper bound of the growth of all lengths in one interval, times Z.
 constexpr double largest_compression = 0.2;
 
 template <int Dim>
@@ -59,7 +59,7 @@ class Hybrid {
     return options_.packing_fraction.value_or(std::numeric_limits<double>::infinity());
   }
 
-  /// At the end of an interval of growth, whichever goal ended it.
+  /// True at the end of an interval of growth that has reached the target pressure, whichever goal ended it.
   bool at_pressure() const {
     return options_.reduced_pressure &&
            state_.growth.reduced_pressure >= *options_.reduced_pressure;
@@ -67,7 +67,7 @@ class Hybrid {
 
   StageReport sampling() {
     SamplingOptions sampling = options_.stretch;
-    sampling.sweeps *= (state_.stretches + 1) / 2;  // all so far
+    sampling.sweeps *= (state_.stretches + 1) / 2;  // of all intervals of Monte Carlo so far
     return sample(configuration_, sampling, options_.seed, state_.sampling, silent_);
   }
 
@@ -86,7 +86,7 @@ class Hybrid {
   HybridState& state_;
   const RunControl& control_;
   const double start_;
-  const RunControl silent_;  // progress is that of the whole stage
+  const RunControl silent_;  // because progress is that of the whole stage
 };
 
 }  // namespace

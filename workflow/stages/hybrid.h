@@ -26,8 +26,9 @@ struct HybridState {
 /// fifth of the free lengths, and Z has risen by the same fraction. Velocities are redrawn after every interval of
 /// Monte Carlo. Goals are reached during growth, which ends the stage.
 ///
-/// `reached` at the target packing fraction or pressure; `stuck` if the particles jam before; `stopped` by the run
-/// control: the same call then continues with bit-identical results. Otherwise like `grow`.
+/// Returns `reached` at the target packing fraction or pressure and `stalled` if the particles jam before. Returns
+/// `stopped` if the run control stops it; the same call then continues with bit-identical results. Everything else is
+/// as in `grow`.
 template <int Dim>
 StageReport hybrid(Configuration<Dim>& configuration, const HybridOptions& options,
                    HybridState& state, const RunControl& control);

@@ -7,15 +7,15 @@
 
 namespace vitrel {
 
-/// Growth of all lengths in one stretch of growth, at most.
+/// Upper bound of the growth of all lengths in one interval.
 inline constexpr double largest_growth_of_stretch = 0.01;
 
 /// Alternating growth and Monte Carlo (hybrid.h).
 struct HybridOptions {
   double growth_rate = 1e-2;
-  std::optional<double> packing_fraction;     ///< target, reached exactly
-  std::optional<double> reduced_pressure;     ///< target
-  SamplingOptions stretch = {.sweeps = 100};  ///< of Monte Carlo
+  std::optional<double> packing_fraction;     ///< the stage ends exactly at it
+  std::optional<double> reduced_pressure;     ///< the stage ends once it is reached
+  SamplingOptions stretch = {.sweeps = 100};  ///< one interval of Monte Carlo
   std::uint64_t seed = 1;
 };
 

@@ -14,7 +14,8 @@
 namespace vitrel {
 namespace {
 
-/// Random insertion is quick up to here: in three dimensions, where it serves as a start, for all lengths.
+/// Random insertion is quick up to these packing fractions. In three dimensions it serves as a start: later stages
+/// grow all lengths.
 constexpr double easy_insertion = 0.3, easy_insertion_of_solids = 0.01;
 
 void describe_attempts(InsertStage& stage, FieldVisitor& visit) {
@@ -47,7 +48,7 @@ void describe_orientations(InsertStage& stage, FieldVisitor& visit) {
 
 using Tensor = Eigen::MatrixXd;
 
-/// From its diagonal or all rows; nothing if these are not as many numbers.
+/// Builds the tensor from its diagonal or from all its rows. Returns nothing if there are not as many numbers.
 std::optional<Tensor> full_tensor(const std::vector<double>& numbers, int dimension) {
   const auto size = static_cast<int>(numbers.size());
   if (size == dimension)
@@ -57,13 +58,13 @@ std::optional<Tensor> full_tensor(const std::vector<double>& numbers, int dimens
 }
 
 bool is_orientation_tensor(const Tensor& a) {
-  constexpr double slack = 1e-9;  // of decimal numbers
+  constexpr double slack = 1e-9;  // rounding of numbers written in decimal
   return a.allFinite() && (a - a.transpose()).cwiseAbs().maxCoeff() <= slack &&
          std::abs(a.trace() - 1) <= slack &&
          Eigen::SelfAdjointEigenSolver<Tensor>(a).eigenvalues().minCoeff() >= -slack;
 }
 
-/// Empty: isotropic, or aligned.
+/// Returns nothing if the orientations are isotropic or aligned.
 std::vector<double> tensor_numbers(const InsertStage& stage, int dimension) {
   using Orientations = InsertStage::Orientations;
   if (stage.orientations == Orientations::planar) return {0.5, 0, 0, 0, 0.5, 0, 0, 0, 0};

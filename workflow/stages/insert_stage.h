@@ -20,7 +20,7 @@ struct InsertStage : StageDefaults {
   std::optional<double> packing_fraction;
   std::uint64_t attempts = InsertionOptions().attempts;
   Orientations orientations = Orientations::random;
-  /// The diagonal of Orientations::tensor, or all of its rows.
+  /// The diagonal of the tensor, or all of its rows, for Orientations::tensor.
   std::optional<std::vector<double>> orientation_tensor;
 
   static std::vector<StageField<InsertStage>> fields();

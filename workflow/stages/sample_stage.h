@@ -18,7 +18,7 @@ struct SampleStage : StageDefaults {
   ExchangeOptions exchanges;
   std::uint64_t decorrelations = SamplingOptions().decorrelations;
   std::uint64_t sweeps = SamplingOptions().sweeps;
-  std::uint64_t max_sweeps = SwellingOptions().sweeps;  ///< with a number of decorrelations
+  std::uint64_t max_sweeps = SwellingOptions().sweeps;  ///< if a number of decorrelations is given
 
   static std::vector<StageField<SampleStage>> fields();
   void validate(const Rules& rules, int dimension) const;

@@ -12,10 +12,10 @@
 namespace vitrel {
 namespace {
 
-/// Packing fractions that differ by less are the same; those of states carry rounding errors.
+/// Packing fractions that differ by less count as equal, because those of states carry rounding errors.
 constexpr double packing_fraction_slack = 1e-9;
 
-/// `use(stage)` for every kind of stage, with its defaults.
+/// Calls `use(stage)` for every kind of stage, with its default options.
 void each_kind(auto&& use) {
   [&]<std::size_t... k>(std::index_sequence<k...>) {
     (use(std::variant_alternative_t<k, Stage>()), ...);
@@ -23,7 +23,7 @@ void each_kind(auto&& use) {
   (std::make_index_sequence<std::variant_size_v<Stage>>());
 }
 
-/// The names of all methods for which `applies(stage)`.
+/// The names of all methods for which `applies(stage)` holds.
 std::vector<const char*> methods(auto&& applies) {
   std::vector<const char*> names;
   each_kind([&]<class S>(const S& stage) {
@@ -32,7 +32,7 @@ std::vector<const char*> methods(auto&& applies) {
   return names;
 }
 
-/// "a", "b" or "c", with the last two joined by `conjunction`.
+/// Lists the names as "a", "b" or "c", with the last two joined by `conjunction`.
 std::string listed(const std::vector<const char*>& names, const std::string& conjunction) {
   std::string text;
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -63,7 +63,7 @@ bool has_key(const std::string& key) {
   return std::ranges::any_of(S::fields(), [&](const auto& field) { return field.key == key; });
 }
 
-/// The keys of all stages, each once.
+/// The keys of all stages, each listed once.
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys;
   each_kind([&]<class S>(const S&) {
@@ -77,7 +77,7 @@ std::vector<const char*> methods_with(const std::string& key) {
   return methods([&]<class S>(const S&) { return has_key<S>(key); });
 }
 
-/// Names one key of the stage; nothing if it does not have it.
+/// Describes one key of the stage; does nothing if the stage does not have it.
 void describe_key(Stage& stage, const std::string& key, FieldVisitor& visit) {
   std::visit(
       [&]<class S>(S& options) {
@@ -111,7 +111,7 @@ StageEnding ending(const Stage& stage) {
   return std::visit([](const auto& options) { return options.ending(); }, stage);
 }
 
-/// Whether the stage belongs into this place of the sequence.
+/// Requires that the first stage places the particles and that later ones move them.
 template <class S>
 void validate_place(const S&, bool is_first, const Rules& rules) {
   const auto places = []<class T>(const T&) { return T::places_particles; };
@@ -129,7 +129,7 @@ void validate_packing_fraction(const Stage& stage, const SystemParameters& syste
   const std::optional<double> own = own_packing_fraction(stage);
   if (own) rules.packing_fraction(*own, "packing_fraction", bound);
   const double goal = own.value_or(end_of_stage(stage, system, before));
-  // A stage without a packing fraction of its own ends at that of the system.
+  // A stage without a packing fraction of its own ends at that of the system, which is then to blame.
   (own ? rules : Rules("system"))
       .require(goal >= before * (1 - packing_fraction_slack), "packing_fraction",
                fmt::format("is {}, but the stage before ends at {}, and no stage shrinks",

@@ -21,30 +21,30 @@ namespace vitrel {
 using Stage = std::variant<InsertStage, LatticeStage, SwellStage, CompressStage, GrowStage,
                            HybridStage, SampleStage, StateStage>;
 
-/// Its name in the parameter file.
+/// Returns the name of the stage in the parameter file.
 const char* method_name(const Stage& stage);
 
 /// Whether the method of this name places the particles, so that it must come first.
 bool places_particles(const std::string& method);
 
-/// The options of the first stage if it takes the particles from a state; else null.
+/// Returns the options of the first stage if it takes the particles from a state, else null.
 const StateStage* start_state(const std::vector<Stage>& stages);
 StateStage* start_state(std::vector<Stage>& stages);
 
-/// Whether the packing fraction stays that of the end of the first stage.
+/// Whether all stages after the first keep the packing fraction.
 bool keep_packing_fraction(const std::vector<Stage>& stages);
 
-/// Whether the last stage samples, and the state must decorrelate at least ten times in it.
+/// Whether the last stage samples until the state has decorrelated at least ten times.
 bool end_in_equilibrium(const std::vector<Stage>& stages);
 
 /// Describes `method`, which selects the stage, and the keys of all stages. The keys of a stage exist only with its
 /// method.
 void describe_stage(Stage& stage, FieldVisitor& visit);
 
-/// Throws BadValue, for keys of [[prepare.stage]] or system.packing_fraction, if an option of a stage is invalid or if
-/// the stages do not fit together: the first places the particles, the others move them, none lowers the packing
-/// fraction, and the last one reaches that of the system unless a pressure ends it. No packing fraction may exceed
-/// `bound`.
+/// Throws BadValue, for a key of [[prepare.stage]] or for system.packing_fraction, if an option of a stage is invalid
+/// or if the stages do not fit together. The first stage must place the particles, and the others must move them.
+/// None may lower the packing fraction or exceed `bound`, and the last one must reach the packing fraction of the
+/// system unless a pressure ends it.
 void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system,
                      const PackingBound& bound);
 
@@ -52,10 +52,10 @@ void validate_stages(const std::vector<Stage>& stages, const SystemParameters& s
 /// and `before` is returned.
 double end_of_stage(const Stage& stage, const SystemParameters& system, double before);
 
-/// Whether the packing fraction at which the preparation ends is not known in advance.
+/// Whether the packing fraction at the end of the preparation is not known in advance.
 bool has_unknown_end(const std::vector<Stage>& stages);
 
-/// A short description of the stage with its options; `packing_fraction` is that of end_of_stage.
+/// A short description of the stage with its options. `packing_fraction` is the result of end_of_stage.
 std::string stage_description(const Stage& stage, double packing_fraction);
 
 }  // namespace vitrel

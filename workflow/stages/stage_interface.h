@@ -9,8 +9,8 @@
 #include "workflow/system_parameters.h"
 
 /// @file
-/// The interface of the stages of a preparation. A stage is a type whose members are the options, with their defaults.
-/// It also has
+/// The interface of the stages of a preparation. A stage is a type whose members are its options, with their
+/// defaults. It also has
 ///
 ///     method, summary       its name in the parameter file, and a description
 ///     State                 its progress; together with the configuration, all it needs to continue
@@ -22,7 +22,8 @@
 ///     record                adds its results to the record of the stage
 ///
 /// and overrides members of StageDefaults where needed. To add a stage, write such a type in files of its own and add
-/// it to the list in stage.h. Its header contains no algorithm, so that code that reads parameters compiles none.
+/// it to the list in stage.h. The header of a stage contains no algorithm, so that code that reads parameters
+/// compiles none.
 namespace vitrel {
 
 template <int Dim>
@@ -31,12 +32,12 @@ class FieldVisitor;
 class Rules;
 struct StageRecord;
 
-/// The state of a stage that cannot be continued and always starts again.
+/// The state of a stage that cannot be continued and always starts from the beginning.
 struct NoState {};
 
 enum class StageEnding {
   packing_fraction,  ///< ends at a packing fraction known in advance
-  unforeseen,        ///< a pressure, or a state that is not read yet, determines the end
+  unforeseen,        ///< ends where a pressure, or a state that is not read yet, determines
   unchanged,         ///< ends at the packing fraction at which it begins
 };
 
@@ -47,18 +48,18 @@ constexpr StageEnding ending_known_if(bool known) {
 /// The input of a stage.
 struct StageContext {
   std::variant<Configuration<2>*, Configuration<3>*> configuration;  ///< changed in place
-  double packing_fraction;                                           ///< end_of_stage
+  double packing_fraction;  ///< at the end of the stage (end_of_stage)
   std::uint64_t seed;
-  int threads;  ///< of Monte Carlo; the result does not depend on their number
+  int threads;  ///< for Monte Carlo; the result does not depend on it
   const RunControl& control;
 
-  /// The result of `use` with the configuration of either dimension.
+  /// Calls `use` with the configuration, whatever its dimension, and returns the result.
   auto with_configuration(auto&& use) const {
     return std::visit([&](auto* of_dimension) { return use(*of_dimension); }, configuration);
   }
 };
 
-/// A key of a stage in the parameter file, with the keys that depend on its value.
+/// A key of a stage in the parameter file, with the keys that depend on the value of that key.
 template <class S>
 struct StageField {
   const char* key;
@@ -67,16 +68,16 @@ struct StageField {
 
 struct StageDefaults {
   using State = NoState;
-  /// Whether it places the particles and therefore comes first; other stages move them.
+  /// Whether the stage places the particles and must therefore come first; other stages move them.
   static constexpr bool places_particles = false;
 
   StageEnding ending() const { return StageEnding::packing_fraction; }
-  /// Where a stage ends that has no packing fraction of its own but whose end is known.
+  /// The packing fraction at the end of a stage that has none of its own but whose end is known.
   double default_packing_fraction(const SystemParameters& system) const {
     return system.packing_fraction;
   }
   void validate(const Rules&, int /*dimension*/) const {}
-  /// A short description with these options; empty if the method and the packing fraction say all.
+  /// A short description with these options; empty if the method and the packing fraction say everything.
   std::string description() const { return {}; }
   template <class State, class Visit>
   static void each_item(State&, Visit&&) {}

@@ -30,17 +30,17 @@ struct StatesOf<std::variant<S...>> {
 /// The progress of a stage; the alternative has the index of the stage.
 using StageState = StatesOf<Stage>::Type;
 
-/// The state of a stage that has not begun; its Monte Carlo sweeps are numbered from `next_sweep` on.
+/// Returns the state of a stage that has not begun. Its Monte Carlo sweeps are numbered from `next_sweep`.
 StageState first_state(const Stage& stage, std::uint64_t next_sweep);
 
-/// Runs the stage, or continues it from `state`. Returns `reached` at its end, `stuck` if it cannot get there,
-/// `stopped` if the run control requests it.
+/// Runs the stage, or continues it from `state`. Returns `reached` at the end of the stage, `stalled` if the stage
+/// cannot get there, and `stopped` if the run control requests a stop.
 StageReport advance_stage(const Stage& stage, StageState& state, const StageContext& context);
 
 /// The results of the stage, as far as its state contains them.
 StageRecord record_of(const Stage& stage, const StageState& state);
 
-/// The items of the state in a checkpoint; `state` may be constant.
+/// Visits the items of the state that a checkpoint holds; `state` may be constant.
 void each_item_of_stage(auto& state, auto&& visit) {
   std::visit([&](auto& one) { std::decay_t<decltype(one)>::Kind::each_item(one.value, visit); },
              state);

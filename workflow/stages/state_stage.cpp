@@ -10,7 +10,7 @@ namespace {
 
 using Rows = StateStage::Rows;
 
-/// An array of arrays of numbers; a row of one number may be the number itself.
+/// Describes an array of rows of numbers; a row of one number may be written as the number itself.
 void describe_rows(const Field& field, std::optional<Rows>& rows, Rows example,
                    FieldVisitor& visit) {
   visit.optional(field, rows, std::move(example), [&](FieldVisitor& in, Rows& inner) {
@@ -99,7 +99,7 @@ void describe_masses(StateStage& stage, FieldVisitor& visit) {
       stage.masses, std::vector<double>{0.5, 0.5});
 }
 
-/// `names` is in the plural: "positions".
+/// `names` is the plural of what is counted, for example "positions".
 template <class Array>
 void validate_number(const std::optional<Array>& array, const char* names, std::size_t particles,
                      const Rules& rules) {

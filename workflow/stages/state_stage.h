@@ -9,8 +9,8 @@
 
 namespace vitrel {
 
-/// A state from a file, or from arrays in the parameter file. The configuration that it is given is the state already:
-/// number, species, box and packing fraction of the system come from it (configuration/start_state.h).
+/// A state from a file, or from arrays in the parameter file. The stage is given a configuration that is already the
+/// state: configuration/start_state.h takes the number, species, box and packing fraction of the system from it.
 struct StateStage : StageDefaults {
   static constexpr const char* method = "state";
   static constexpr const char* summary = "a state from a file, or from arrays in this file";
@@ -22,13 +22,13 @@ struct StateStage : StageDefaults {
   std::optional<std::string> file;
   OnOverlap on_overlap = OnOverlap::stop;
   std::optional<std::vector<double>> box;
-  // Instead of a file, a row per particle:
+  // These arrays replace the file and have one row per particle.
   std::optional<Rows> positions, velocities, quaternions, semi_axes;
   std::optional<std::vector<double>> angles, masses;
-  std::optional<Rows> angular_velocities;  ///< in the plane rows of one number
+  std::optional<Rows> angular_velocities;  ///< in the plane, rows of one number
   std::optional<std::vector<std::string>> species;
 
-  /// The packing fraction of the state, once it is known; no key of the parameter file.
+  /// The packing fraction of the state, once it is known. It is not a key of the parameter file.
   std::optional<double> packing_fraction;
 
   static std::vector<StageField<StateStage>> fields();
@@ -37,7 +37,7 @@ struct StateStage : StageDefaults {
   std::string description() const;
   StageReport advance(NoState& state, const StageContext& context) const;
 
-  /// The particles of the arrays.
+  /// The particles that the arrays describe.
   ForeignFrame frame(int dimension) const;
 };
 

@@ -33,7 +33,7 @@ FileCheck<Dim> check_file(const TrajectoryReader& reader, bool last_only,
   if (reader.frames() == 0) throw FileError(reader.path().string() + ": has no frame to check");
   FileCheck<Dim> result;
   result.smallest_gap = std::numeric_limits<double>::infinity();
-  // A message has two lines of details at most: two overlaps, or one and what may be the reason.
+  // A message has at most two lines of details: two overlaps, or one overlap and its possible reason.
   const std::size_t named = reader.has_single_precision() ? 1 : 2;
   const std::uint64_t first = last_only ? reader.frames() - 1 : 0;
   for (std::uint64_t frame = first; frame < reader.frames() && !control.stop_requested(); ++frame) {

@@ -8,10 +8,10 @@
 
 namespace vitrel {
 
-/// The checkpoint of a piece of work, beside its output. Functions throw FileError.
+/// The checkpoint of a run or preparation, beside its output. Functions throw FileError.
 class CheckpointFile {
  public:
-  /// `interval`: seconds of wall time between two checkpoints.
+  /// `interval` is the wall time between two checkpoints in seconds.
   CheckpointFile(std::filesystem::path path, double interval)
       : path_(std::move(path)), interval_(interval) {}
 
@@ -27,7 +27,7 @@ class CheckpointFile {
     save_checkpoint(path_, checkpoint);
     since_last_ = WorkTimer();
   }
-  /// Whether the interval has passed since the last one.
+  /// Whether the interval has passed since the last checkpoint.
   bool is_due() const { return since_last_.seconds() >= interval_; }
 
  private:

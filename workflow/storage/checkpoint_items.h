@@ -10,11 +10,12 @@
 #include "core/io/checkpoint.h"
 
 /// @file
-/// What a plain value consists of is named once, by a function template that hands every item with its
-/// name to one of these: one writes it into a checkpoint, the other reads it from there.
+/// Writing and reading of plain values in checkpoints. A function template names the items of a type once: it hands
+/// every item with its name to a visitor. An ItemWriter writes it into a checkpoint, an ItemReader reads it from
+/// there.
 namespace vitrel {
 
-// Where a checkpoint holds items of a type.
+// Each function returns the part of a checkpoint that holds items of this type.
 auto& items_like(double, auto& checkpoint) {
   return checkpoint.reals;
 }
@@ -35,7 +36,7 @@ class ItemWriter {
  public:
   explicit ItemWriter(Checkpoint& checkpoint, std::string path = "")
       : checkpoint_(checkpoint), path_(std::move(path)) {}
-  /// The writer of items whose names begin with `path`.
+  /// Returns a writer of items whose names begin with `path`.
   ItemWriter below(const std::string& path) const { return ItemWriter(checkpoint_, path_ + path); }
   void operator()(const std::string& name, const auto& value) const {
     items_like(value, checkpoint_)[path_ + name] = value;
@@ -57,7 +58,7 @@ class ItemReader {
     if (!items_like(value, checkpoint_).contains(path_ + name)) refuse_without(path_ + name);
     if_recorded(name, value);
   }
-  /// An item that earlier versions did not write: `value` remains if it is missing.
+  /// Reads an item that earlier versions did not write. `value` remains as it is if the item is missing.
   void if_recorded(const std::string& name, auto& value) const {
     const auto& items = items_like(value, checkpoint_);
     if (const auto found = items.find(path_ + name); found != items.end()) value = found->second;

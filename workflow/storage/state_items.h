@@ -5,8 +5,8 @@
 #include "core/state/observer.h"
 
 /// @file
-/// The items that runs and stages have in common in their checkpoints. `visit` is an ItemWriter or an
-/// ItemReader (checkpoint_items.h).
+/// The items that the checkpoints of runs and of stages have in common. `visit` is an ItemWriter or an ItemReader
+/// (checkpoint_items.h).
 namespace vitrel {
 
 void each_item_of_counters(auto& counters, auto&& visit) {

@@ -11,17 +11,17 @@
 #include "core/state/observer.h"
 
 /// @file
-/// A run on file: what the program writes with every frame, and how the analysis sees it.
+/// The file of a run: what the program writes with every frame, and how the analysis reads it.
 namespace vitrel {
 
-/// The observables that `run` stores with every frame: totals over all particles, and totals since
-/// the start of the run; Helfand moments only if momentum and energy are conserved.
+/// The names of the observables that `run` stores with every frame: totals over all particles, and totals since the
+/// start of the run. Helfand moments are among them only if momentum and energy are conserved.
 std::vector<std::string> run_observables(int dimension, bool is_conservative);
-/// Those of these names.
+/// Measures the observables that are in `names`.
 template <int Dim>
 Observables measure_run(const Frame<Dim>& frame, const std::vector<std::string>& names);
 
-/// A trajectory file of this dimension as the analysis takes it.
+/// A trajectory file of this dimension as a Trajectory for the analysis.
 template <int Dim>
 class TrajectoryFile final : public Trajectory<Dim> {
  public:
@@ -49,14 +49,14 @@ class TrajectoryFile final : public Trajectory<Dim> {
   Configuration<Dim> frame_;
 };
 
-/// From the observables; empty if the file has none.
+/// Energies per particle from the stored observables; empty if the file has none.
 EnergySeries observed_energies(const TrajectoryReader& reader);
 
-/// Without values if there is no energy, or the file has no virial.
+/// Without values if the file has no energies or no virial.
 CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
                                              const EnergySeries& energy, std::size_t rotations);
 
-/// The Helfand moments of every frame, element by element; empty if the file has none.
+/// The Helfand moments of all frames, one array for each element; empty if the file has none.
 std::vector<std::vector<double>> helfand_moments(const TrajectoryReader& reader);
 
 }  // namespace vitrel

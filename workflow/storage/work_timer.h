@@ -4,10 +4,10 @@
 
 namespace vitrel {
 
-/// Wall time spent on a piece of work, by this process and those before it.
+/// Wall time that this process and earlier ones have spent on a piece of work.
 class WorkTimer {
  public:
-  /// `before`: seconds that other processes spent.
+  /// `before` is the time that earlier processes spent, in seconds.
   explicit WorkTimer(double before = 0) : before_(before) {}
 
   double seconds() const {

@@ -14,8 +14,8 @@
 
 namespace vitrel {
 
-// Children inherit the descriptor and with it the lock: one that outlives a killed parent, if only by
-// the moment it takes to die, still works in the folder.
+// Children inherit the descriptor and with it the lock, because a child that outlives a killed parent, even for the
+// moment that it takes to die, still works in the folder.
 FolderLock::FolderLock(const std::filesystem::path& folder)
     : path_(folder / "lock"),
       descriptor_(open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW, 0666)) {
@@ -39,7 +39,7 @@ bool FolderLock::acquire(Share share, const std::function<bool()>& gives_up) {
 }
 
 void FolderLock::hold_alone() {
-  // As long as children of a killed sweep may take to die.
+  // Children of a killed sweep may take up to a second to die.
   int asked = 0;
   if (!acquire(Share::alone, [&asked] { return ++asked > 10; }))
     throw UserError(path_.parent_path().string() +

@@ -5,23 +5,23 @@
 
 namespace vitrel {
 
-/// Keeps other processes of the program out of a folder, by the file `lock` in it. The kernel lets go
-/// when this process and those it started have ended, however they did.
+/// Keeps other processes of the program out of a folder by the file `lock` in it. The kernel releases the lock when
+/// this process and its children have ended, however they ended.
 class FolderLock {
  public:
   enum class Share { alone, with_others };
 
-  /// Throws FileError if the file cannot be made.
+  /// Throws FileError if the file cannot be created.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// Holds the folder, or returns false if others hold it and `gives_up`, asked ten times a second,
-  /// says so. Throws FileError where the file system has no locks.
+  /// Waits until this process holds the lock. Returns false if other processes hold it and `gives_up`, called ten
+  /// times a second, returns true. Throws FileError if the file system does not support locks.
   bool acquire(Share share, const std::function<bool()>& gives_up);
 
-  /// Holds it alone. Throws UserError if after a second others still hold it.
+  /// Acquires the lock for this process alone. Throws UserError if other processes still hold it after a second.
   void hold_alone();
 
  private:

@@ -16,13 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Another run than the one that was begun is refused, another preparation likewise.
+/// The work whose parameters must not change any more: the run if it was begun, else the preparation.
 Work work_in(const fs::path& folder) {
   return fs::exists(folder / "run.h5") ? Work::run : Work::preparation;
 }
 
-/// Whether a change of this key in a finished job might go unnoticed. The other keys make its run longer, or its
-/// analysis another one.
+/// Whether a change of this key in a finished job might go unnoticed. A change of other keys makes the run longer or
+/// the analysis a new one.
 bool may_change_unnoticed(const std::string& key) {
   return !key.starts_with("analysis.") && !key.starts_with("dynamics.duration");
 }
@@ -36,13 +36,14 @@ void refuse_other_parameters(const fs::path& folder, const std::string& before,
                     folder.string(), change->key, change->first, change->second));
 }
 
-/// The parameters of a job that was begun with others.
+/// The present parameters of a job, completed with the recorded ones as for a run that continues.
 std::string text_now(const SweepJob& job, const std::string& before, const fs::path& file) {
   return effective_parameters(
       continued(job.parameters, recorded_parameters(before, file.string())));
 }
 
-/// Whether what a finished job was asked for is what it is asked for now: a run of this length, and its analysis.
+/// Whether a finished job needs no more work: it has a run if one is wanted, and neither its length nor its analysis
+/// has changed.
 bool is_still_done(const SweepJob& job, const fs::path& folder, const std::string& before,
                    const std::string& now) {
   return !first_difference(before, now, may_change_unnoticed) &&
@@ -73,7 +74,7 @@ std::vector<Published> published_in(const Json& list) {
   return published;
 }
 
-/// Jobs done by earlier versions have the former key alone, others both.
+/// Some earlier versions wrote only the former key, others both.
 void remove_former_key(Json& figures, const std::string& suffix) {
   const std::string former = "compressibility" + suffix;
   const std::string key = "compressibility_factor" + suffix;
@@ -141,7 +142,7 @@ void write_job_end(JobStage stage, const std::string& step, int exit_code, const
                       {"message", last_log_line(folder)}};
     write_text(folder / "end.json", json_text(end, 2) + "\n");
   } catch (const FileError&) {
-    // What the job said has been told already, and is worth more than this.
+    // The output already reports how the job ended, and that report must not be lost to an error in this one.
   }
 }
 
@@ -151,7 +152,7 @@ JobPlace job_place(const fs::path& folder) {
   if (!fs::exists(file)) return place;
   read_json_as("the values of a job", file, [&](const Json& job) {
     place.values = swept_values(job.at("values"));
-    // Jobs of earlier versions have none of these.
+    // Jobs of earlier versions lack these three keys.
     place.published = published_in(job.value("published", Json::array()));
     place.layout.together = job.value("together", std::vector<std::string>());
     if (const std::string axis = job.value("axis", ""); !axis.empty()) place.layout.axis = axis;
@@ -164,7 +165,7 @@ Json job_end(const fs::path& folder) {
   Json end;
   if (fs::exists(file))
     read_json_as("the end of a job", file, [&](const Json& json) {
-      static_cast<void>(job_end_text(json));  // needs all of it
+      static_cast<void>(job_end_text(json));  // checks that all fields are there
       end = json;
     });
   return end;

@@ -13,8 +13,8 @@
 namespace vitrel {
 namespace {
 
-// A preparation or a run saves its state and ends with 5; an analysis has nothing to save, and a
-// signal just ends it.
+// A preparation or a run that stops saves its state and ends with 5. An analysis has nothing to save, so a signal
+// ends it.
 bool is_stop(int exit_code) {
   return exit_code == 5 || std::ranges::any_of(stop_signals, [exit_code](int number) {
            return exit_code == 128 + number;
@@ -30,7 +30,7 @@ JobWorker::JobWorker(const SweepJob& job, const std::filesystem::path& folder,
   start_next();
 }
 
-// A single state in the plane has nothing to analyze beyond its quality report.
+// A single state in the plane is not analyzed, because its quality report says everything.
 std::vector<JobWorker::Step> JobWorker::steps_of(const SweepJob& job) {
   std::vector<Step> steps = {{"prepare", "state.h5", true}};
   if (!job.prepares_only) steps.push_back({"run", "run.h5", false});
@@ -56,7 +56,7 @@ void JobWorker::poll() {
   } else {
     printed_->commit();
     ++next_;
-    // A child that was about to end has done its step nevertheless.
+    // A child that was about to end when it was asked to stop has completed its step.
     if (is_asked_to_stop_ && next_ < steps_.size())
       give_up(State::stopped);
     else
@@ -86,7 +86,7 @@ void JobWorker::start_next() {
     return;
   }
   const Step& step = steps_[next_];
-  // A product without its summary comes from a sweep killed between the two; it is made again.
+  // A product without its summary is left by a sweep that was killed between the two, so it is made again.
   if (step.skip_if_there) std::filesystem::remove(folder_ / step.product);
   printed_.emplace(summary(step));
   child_.emplace(command(step), printed_->partial(), folder_ / "log.txt");

@@ -11,7 +11,7 @@
 
 namespace vitrel {
 
-/// Runs the steps of one job, a process at a time, and keeps its folder (job_folder.h).
+/// Runs the steps of one job, one process at a time, and keeps its folder up to date (job_folder.h).
 class JobWorker {
  public:
   /// Starts the first step that is not complete. Throws FileError.
@@ -26,14 +26,14 @@ class JobWorker {
   void ask_to_stop();
   /// Starts the next step if the current one has ended. Throws FileError.
   void poll();
-  /// The share of the run that is done, by the log; 0 during the preparation.
+  /// The completed share of the run according to its log; 0 during the preparation.
   double share();
 
  private:
   struct Step {
     const char* name;
     const char* product;
-    bool skip_if_there;  ///< the product appears only when complete
+    bool skip_if_there;  ///< true if the product exists only once it is complete
   };
   static std::vector<Step> steps_of(const SweepJob& job);
 
@@ -48,7 +48,7 @@ class JobWorker {
   std::filesystem::path folder_, program_;
   std::vector<Step> steps_;
   std::size_t next_ = 0;
-  std::optional<AtomicFile> printed_;  ///< by the step that runs: its summary
+  std::optional<AtomicFile> printed_;  ///< the output of the current step: its summary
   std::optional<ChildProcess> child_;
   State state_ = State::running;
   bool is_asked_to_stop_ = false;
@@ -56,7 +56,7 @@ class JobWorker {
   double share_ = 0;
 };
 
-/// The share that a line of the progress of `vitrel run` tells; 0 of other lines.
+/// The share of the run that a line of the progress of `vitrel run` states; 0 for other lines.
 double share_of_run(const std::string& log_line);
 
 }  // namespace vitrel

@@ -25,7 +25,7 @@ int open_for_writing(const std::filesystem::path& path, int flags) {
   return descriptor;
 }
 
-// Holds back the signals of a stop for the time of its life.
+// Blocks the stop signals as long as it lives.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -38,7 +38,8 @@ class HeldSignals {
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
 
-  // In the child: a stop ends it, instead of being noted by a handler that exec forgets. Ignored hangups (nohup) stay so.
+  // Called in the child, where a stop must end the process rather than call a handler, which exec would forget. A
+  // hangup that is ignored (nohup) stays ignored.
   bool release_to_default() const {
     for (const int number : stop_signals) {
       const auto before = signal(number, SIG_DFL);
@@ -54,15 +55,15 @@ class HeldSignals {
   sigset_t before_;
 };
 
-// Between fork and exec only calls that are safe there.
+// Runs between fork and exec, where only async-signal-safe calls are allowed.
 [[noreturn]] void become(char* const* arguments, int output, int log, pid_t parent,
                          const HeldSignals& held) {
-  // The parent may have died before it was asked for its death. Ctrl-C on a terminal reaches the whole group; the parent
-  // passes its wish on by itself.
+  // The parent may have died before prctl asked for a signal at its death. The child gets a process group of its own,
+  // because Ctrl-C on a terminal reaches the whole group, whereas the parent passes a stop on by itself.
   const bool is_ready = held.release_to_default() && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 &&
                         getppid() == parent && setpgid(0, 0) == 0 &&
                         dup2(log, STDERR_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0;
-  if (is_ready) static_cast<void>(execv(arguments[0], arguments));  // returns only if it failed
+  if (is_ready) static_cast<void>(execv(arguments[0], arguments));  // returns only if it fails
   constexpr std::string_view complaint = "the program cannot be started\n";
   [[maybe_unused]] const auto written = write(log, complaint.data(), complaint.size());
   _exit(127);

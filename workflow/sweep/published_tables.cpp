@@ -8,14 +8,14 @@
 namespace vitrel {
 namespace {
 
-/// Adds a row to a column of words.
+/// Adds a row to a column whose values are words.
 void add_word(Column& column, const std::string& word) {
   const auto found = std::ranges::find(column.labels, word);
   column.value.push_back(static_cast<double>(found - column.labels.begin()));
   if (found == column.labels.end()) column.labels.push_back(word);
 }
 
-/// The values of the keys in every row of the averages.
+/// The keys of the sweep with their values in every row of the averages.
 std::vector<StudyAxis> keys_of(const std::vector<SeedAverage>& averages) {
   std::vector<SweptValues> values;
   for (const SeedAverage& average : averages) values.push_back(average.values);
@@ -46,7 +46,7 @@ Table values_table(const std::vector<SeedAverage>& averages) {
           std::move(columns)};
 }
 
-/// The slope of a least-squares line.
+/// The slope of a least-squares line; unknown if all x are equal.
 double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
   double x_mean = 0, y_mean = 0, covariance = 0, variance = 0;
   for (std::size_t k = 0; k < x.size(); ++k) {

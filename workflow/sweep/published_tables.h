@@ -7,14 +7,14 @@
 #include "workflow/sweep/study_axes.h"
 
 /// @file
-/// What publications say of a sweep ([[sweep.published]]), beside its own results.
+/// Tables that compare a sweep with what publications say ([[sweep.published]]).
 namespace vitrel {
 
-/// Those of two tables that have rows. `published`: for every value that a publication gives, the keys of the sweep,
-/// the quantity, the source, that value and the average of the jobs. `published_exponents`: for every power law
-/// quantity ∝ abscissaⁿ, the quantity, the source, the part of the abscissa in which it holds, the published n, and the
-/// slope of a least-squares line through the logarithms of the averages in that part; unknown with fewer than two of
-/// them.
+/// Returns those of the following two tables that have rows. `published` has a row for every value that a publication
+/// gives: the keys of the sweep, the quantity, the source, the published value, and the average of the jobs.
+/// `published_exponents` has a row for every power law quantity ∝ abscissaⁿ: the quantity, the source, the range of
+/// the abscissa in which the law holds, the published n, and the slope of a least-squares line through the logarithms
+/// of the averages in that range, which is unknown if there are fewer than two of them.
 std::vector<Table> published_tables(const std::vector<SeedAverage>& averages,
                                     const std::vector<StudyAxis>& axes);
 

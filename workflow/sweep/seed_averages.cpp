@@ -15,7 +15,7 @@ namespace {
 constexpr const char* error_suffix = "_error";
 constexpr double one_sigma = 0.6827;
 
-/// Jobs with the same values but for the seed.
+/// Jobs whose values differ in the seed only.
 struct Replicates {
   SweptValues values;
   std::vector<Published> published;
@@ -34,7 +34,7 @@ std::vector<Replicates> grouped(const std::vector<JobResult>& jobs) {
   return groups;
 }
 
-/// Half the width of the interval with that probability; 0 if the values differ by rounding errors.
+/// Half the width of the interval of that probability; 0 if the values differ by rounding errors only.
 double half_width(const MeanOfRuns& mean, double level) {
   const double width = mean.half_width(level);
   return is_rounding(width, mean.mean) ? 0 : width;

@@ -8,10 +8,10 @@
 #include "workflow/sweep/study_axes.h"
 
 /// @file
-/// Jobs of a sweep that differ in nothing but their seeds.
+/// Averages over jobs of a sweep that differ in their seeds only.
 namespace vitrel {
 
-/// What a finished job gave.
+/// The results of a finished job.
 struct JobResult {
   SweptValues values;
   Figures figures;
@@ -19,30 +19,31 @@ struct JobResult {
 };
 
 /// The average of one number over seeds, from the scatter of the seeds and the errors of the runs (mean_of_runs in
-/// blocking.h); NaN if not every seed has it, as those that lack it are often those that are special.
+/// blocking.h). It is NaN unless every seed has the number, because seeds that lack it are often special.
 struct AveragedFigure {
   std::string name;
   double mean;
-  double error;       ///< standard error, such that mean ± error covers 68.3 %; NaN for one seed
-  double half_width;  ///< of the 95 % interval; NaN for one seed
-  double scatter;     ///< of the seeds over the errors of the runs; NaN where these are not known
-  bool is_excessive;  ///< the seeds differ by more than the errors of the runs explain
+  double error;       ///< standard error: mean ± error covers 68.3 %; NaN for one seed
+  double half_width;  ///< of the 95 % confidence interval; NaN for one seed
+  /// Scatter of the seeds over the errors of the runs; NaN if these are not known.
+  double scatter;
+  bool is_excessive;  ///< whether the seeds differ by more than the errors of the runs explain
 };
 
-/// All jobs with the same values but for system.seed.
+/// The average over all jobs whose values differ in system.seed only.
 struct SeedAverage {
   SweptValues values;  ///< without the seed
   std::size_t seeds;
-  std::vector<AveragedFigure> figures;    ///< those that the first of the jobs has
-  std::vector<Published> published = {};  ///< the same
+  std::vector<AveragedFigure> figures;    ///< numbers that the first of the jobs has
+  std::vector<Published> published = {};  ///< entries of the first of the jobs
 
-  /// "packing_fraction 0.4, duration 60"; "all" without values.
+  /// The values in words: "packing_fraction 0.4, duration 60"; "all" if there are none.
   std::string name() const;
-  /// The average of that name; NaN if there is none.
+  /// The average of this name; NaN if there is none.
   AveragedFigure find(const std::string& name) const;
 };
 
-/// In the order in which the values first occur.
+/// The averages, in the order in which the values first occur.
 std::vector<SeedAverage> seed_averages(const std::vector<JobResult>& jobs);
 
 /// Whether a sweep runs through seeds.

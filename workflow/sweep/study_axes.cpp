@@ -15,7 +15,7 @@
 namespace vitrel {
 namespace {
 
-/// What a value is as numbers, or nothing.
+/// A value as numbers; no value if it is something else.
 std::optional<std::vector<double>> numbers_of(const Json& value, const std::string& unit) {
   if (value.is_number()) return std::vector{value.get<double>()};
   if (value.is_string() && !unit.empty())
@@ -29,7 +29,7 @@ std::optional<std::vector<double>> numbers_of(const Json& value, const std::stri
   return numbers;
 }
 
-/// Whether the first entry of arrays stands for the one at k.
+/// Whether entry k of the arrays is constant or proportional to the first entry.
 bool follows_first(const std::vector<std::vector<double>>& arrays, std::size_t k) {
   const double of_first = arrays.front()[k], ratio = of_first / arrays.front()[0];
   const auto all = [&](auto&& holds) { return std::ranges::all_of(arrays, holds); };
@@ -39,7 +39,7 @@ bool follows_first(const std::vector<std::vector<double>>& arrays, std::size_t k
          });
 }
 
-/// One number for every job, if the values can be told by it.
+/// One number for every job, if the numbers determine the values.
 std::optional<std::vector<double>> numbers_of(const std::vector<Json>& values,
                                               const std::string& unit) {
   std::vector<std::vector<double>> arrays;
@@ -69,7 +69,7 @@ void set_categories(const std::vector<Json>& values, StudyAxis& axis) {
   }
 }
 
-/// The value of every job, null for one that lacks it.
+/// The values of the key in all jobs; null for a job that lacks the key.
 std::vector<Json> values_of(const std::string& key, const std::vector<SweptValues>& jobs) {
   std::vector<Json> values;
   for (const SweptValues& job : jobs) {
@@ -93,7 +93,7 @@ StudyAxis axis_of(const std::string& key, const std::vector<SweptValues>& jobs) 
   return axis;
 }
 
-/// The parameters of two species have the same symbol.
+/// Parameters of two species have the same symbol, so their keys replace it.
 void tell_symbols_apart(std::vector<StudyAxis>& axes) {
   std::map<std::string, int> uses;
   for (const StudyAxis& axis : axes) ++uses[axis.symbol];
@@ -103,7 +103,7 @@ void tell_symbols_apart(std::vector<StudyAxis>& axes) {
 
 using Axes = std::vector<StudyAxis>;
 
-/// How many different combinations of values these axes have.
+/// The number of different combinations of values that these axes have.
 std::size_t combinations_of(const std::vector<const StudyAxis*>& axes, std::size_t jobs) {
   std::set<std::vector<double>> all;
   for (std::size_t k = 0; k < jobs; ++k) {
@@ -114,7 +114,7 @@ std::size_t combinations_of(const std::vector<const StudyAxis*>& axes, std::size
   return all.size();
 }
 
-/// Leaves as few of the keys that advance together as it takes to tell their steps apart.
+/// Keeps only as many of the keys that advance together as are needed to distinguish their steps.
 void reduce_together(const StudyLayout& layout, Axes& axes) {
   std::vector<const StudyAxis*> together;
   for (const StudyAxis& axis : axes)
@@ -140,7 +140,7 @@ void reduce_together(const StudyLayout& layout, Axes& axes) {
   std::erase_if(axes, [&](const StudyAxis& axis) { return dropped.contains(axis.key); });
 }
 
-/// Those with one value say nothing, unless there are no others.
+/// Removes axes with a single value, which say nothing, unless there are no others.
 void drop_constants(Axes& axes) {
   const auto is_constant = [](const StudyAxis& axis) { return axis.distinct_values() < 2; };
   if (std::ranges::all_of(axes, is_constant))

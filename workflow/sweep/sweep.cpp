@@ -22,14 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a job costs, in units that jobs of one sweep share.
+// An estimate of the cost of a job, in a unit common to the jobs of one sweep.
 double work_of(const SweepJob& job) {
   const auto particles = static_cast<double>(job.parameters.system.particles);
   const DynamicsParameters& dynamics = job.parameters.dynamics;
   return job.prepares_only ? particles : particles * (dynamics.equilibration + dynamics.duration);
 }
 
-// Whether a file could not be written for want of room: the job said so, or hardly any is left.
+// Whether a file could not be written because the disk is full: the job says so, or hardly any space is left.
 bool is_disk_full(const fs::path& folder) {
   constexpr std::uintmax_t hardly_any = 1 << 16;
   std::error_code unknown;
@@ -37,7 +37,7 @@ bool is_disk_full(const fs::path& folder) {
          fs::space(folder, unknown).available < hardly_any;
 }
 
-// Keeps `parallel` jobs going until all are done or the user wants to stop.
+// Keeps `parallel` jobs running until all are done or the user wants to stop.
 class Sweep {
  public:
   Sweep(const SweepRequest& request, const std::vector<SweepJob>& jobs, const RunControl& control,
@@ -52,7 +52,7 @@ class Sweep {
     return run_jobs();
   }
 
-  /// Works on a single job, beside others that work on other jobs.
+  /// Runs a single job while other processes may run other jobs.
   SweepOutcome run_beside_others() {
     const fs::path folder = request_.folder / jobs_.front().id;
     const std::string& predecessor = jobs_.front().predecessor;
@@ -102,7 +102,7 @@ class Sweep {
     return outcome_;
   }
 
-  /// Whether the job of this name is done, if there is a name.
+  /// Whether the job of this name is done; true for an empty name.
   bool is_done(const std::string& id) const {
     return id.empty() || job_stage(request_.folder / id) == JobStage::done;
   }
@@ -112,7 +112,7 @@ class Sweep {
     finished_work_ += work_of(job);
   }
 
-  /// Once a second, as running jobs are asked by their logs.
+  /// Reports at most once a second, because the progress of a running job is read from its log.
   void report_progress() {
     const Clock::time_point now = Clock::now();
     if (now - reported_ < std::chrono::seconds(1)) return;
@@ -134,7 +134,7 @@ class Sweep {
     for (auto& worker : active_) worker->ask_to_stop();
   }
 
-  /// The next job whose predecessor is done.
+  /// Finds the next job whose predecessor is done.
   std::deque<const SweepJob*>::iterator next_ready() {
     return std::ranges::find_if(waiting_,
                                 [&](const SweepJob* job) { return is_done(job->predecessor); });
@@ -152,7 +152,7 @@ class Sweep {
     }
   }
 
-  /// Without a predecessor that is or becomes done, a job cannot begin.
+  /// Gives up the waiting jobs once their predecessors can no longer become done.
   void give_up_blocked() {
     if (!active_.empty() || stopping_ || next_ready() != waiting_.end()) return;
     for (const SweepJob* job : waiting_) {
@@ -184,7 +184,7 @@ class Sweep {
     finished_work_ += work_of(worker.job());
     say_(fmt::format("{}: failed with exit code {}: {}", worker.job().id, worker.exit_code(),
                      last_log_line(folder)));
-    // Every other job would fail likewise.
+    // Every other job would fail in the same way.
     if (!stopping_ && worker.exit_code() == file_error && is_disk_full(folder))
       stop("the disk is full: no more jobs are started; make room, and the same command continues");
   }

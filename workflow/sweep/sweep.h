@@ -10,20 +10,21 @@
 #include "workflow/sweep/sweep_jobs.h"
 
 /// @file
-/// Many runs from one parameter file, each in a folder of its own (job_folder.h): prepare, run, analyze, each in
-/// a process of its own.
+/// Many runs from one parameter file, each in a folder of its own (job_folder.h). The steps prepare, run and analyze
+/// run in processes of their own.
 ///
-/// Every step may be repeated: what is complete is left alone, a preparation or a run that was cut off is
-/// continued. So the same command continues a sweep that was stopped or killed. To equilibrate is the
-/// first part of the run, not a step of its own: both are one trajectory of the dynamics with one
-/// checkpoint, and cutting it in two would add a file and a hand-over, but nothing to the results.
+/// Every step may be repeated: a complete one is left as it is, and a preparation or run that was interrupted
+/// continues. The same command therefore continues a sweep that was stopped or killed. Equilibration is the first
+/// part of the run, not a step of its own: both are one trajectory of the dynamics with one checkpoint, and splitting
+/// it would add a file and a hand-over, but nothing to the results.
 namespace vitrel {
 
 struct SweepRequest {
   ParameterSource source;
   std::filesystem::path folder;
-  std::filesystem::path program;  ///< this program, run for every step
-  int parallel = 0;               ///< jobs at a time; 0: one here, on a cluster what it admits
+  std::filesystem::path program;  ///< this program, which runs every step
+  /// Jobs that run at a time. 0 means one at a time here, and as many as it admits on a cluster.
+  int parallel = 0;
 };
 
 struct SweepOutcome {
@@ -33,34 +34,34 @@ struct SweepOutcome {
   bool stopped = false;
 };
 
-/// Makes the folders, runs all jobs, and tells `say` about every job begun, done or failed. A failed job
-/// does not stop the others, unless it failed because the disk is full. If the control asks to stop, every
-/// job stops where it can be continued. The control's progress is the share of the simulated time, jobs
-/// weighted by their particles, in finished jobs and, by their logs, in running ones.
-/// Throws UserError if a folder belongs to other parameters or another process works on the sweep, FileError
-/// if folders cannot be written.
+/// Creates the folders, runs all jobs, and reports to `say` every job that begins, is done or fails. A failed job
+/// does not stop the others, unless it failed because the disk is full. If the control requests a stop, every job
+/// stops at a point from which it can continue. The control receives as progress the completed share of the simulated
+/// time, with jobs weighted by their particles and with running jobs read from their logs. Throws UserError if a
+/// folder belongs to other parameters or another process works on the sweep, and FileError if folders cannot be
+/// written.
 SweepOutcome run_sweep(const SweepRequest& request, const RunControl& control,
                        const std::function<void(const std::string&)>& say);
 
-/// The same of one job, beside other processes that work on other jobs: what a batch system runs. Waits
-/// while another process works on this job or on the whole sweep, and then finds what that has done.
+/// Runs one job, as a batch system does, while other processes may run other jobs. Waits while another process works
+/// on this job or on the whole sweep, and then uses what that process has done.
 SweepOutcome run_job(const SweepRequest& request, const std::string& id, const RunControl& control,
                      const std::function<void(const std::string&)>& say);
 
-/// How far a sweep is, by its folder alone; all in alphabetical order.
+/// The progress of a sweep as its folder shows it; all lists are in alphabetical order.
 struct SweepProgress {
   std::vector<std::filesystem::path> finished;  ///< folders of the jobs that are done
   std::vector<std::string> unfinished;          ///< names of the others
 
-  /// The runs (or states) of the finished jobs, and their results.
+  /// The files of the runs (or states) of the finished jobs, and of their results.
   std::vector<std::filesystem::path> files() const;
-  /// "12 of 18 jobs are finished".
+  /// The progress in words: "12 of 18 jobs are finished".
   std::string share() const;
-  /// The same, and the names of those that are left out of what is made of the others.
+  /// The progress in words, with the names of the unfinished jobs, which are left out of the results.
   std::string left_out() const;
 };
 
-/// UserError if no job is finished.
+/// Throws UserError if no job is finished.
 SweepProgress sweep_progress(const std::filesystem::path& folder);
 
 }  // namespace vitrel

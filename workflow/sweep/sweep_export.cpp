@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using sweep_templates::asset;
 
-/// The words of the command line that put the source's values over its file.
+/// The words of the command line that set the overrides of the source.
 std::vector<std::string> settings(const ParameterSource& source) {
   std::vector<std::string> words;
   for (const std::string& assignment : source.overrides)
@@ -31,12 +31,12 @@ std::vector<std::string> settings(const ParameterSource& source) {
   return words;
 }
 
-/// As Python reads it.
+/// The value as a Python literal.
 std::string python(const Json& value) {
   return json_text(value, 4, JsonCharacters::ascii);
 }
 
-/// What the user may have completed is left alone.
+/// An existing file stays as it is, because the user may have completed it.
 void write_once(const fs::path& file, const std::string& text) {
   if (!fs::exists(file)) write_text(file, text);
 }

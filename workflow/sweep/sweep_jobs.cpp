@@ -19,9 +19,9 @@
 namespace vitrel {
 namespace {
 
-/// Dotted keys and one value of each.
+/// Dotted keys, each with one value.
 using Assignments = std::vector<std::pair<std::string, std::string>>;
-/// Assignments of which each job makes one.
+/// Alternatives, of which each job makes one.
 using Axis = std::vector<Assignments>;
 
 std::vector<Axis> axes_of(const SweepParameters& sweep) {
@@ -40,7 +40,7 @@ std::vector<Axis> axes_of(const SweepParameters& sweep) {
   return axes;
 }
 
-// One choice from every axis, the last axis fastest.
+// All choices of one alternative from every axis; the last axis varies fastest.
 std::vector<std::vector<Assignments>> combinations_of(const std::vector<Axis>& axes) {
   std::vector<std::vector<Assignments>> combinations(1);
   for (const Axis& axis : axes) {
@@ -55,7 +55,8 @@ std::vector<std::vector<Assignments>> combinations_of(const std::vector<Axis>& a
   return combinations;
 }
 
-/// Letters, digits and a few marks; anything between them becomes one "_", so that every shell takes the name.
+/// Keeps letters, digits and a few marks, and replaces anything between them by one "_", so that every shell accepts
+/// the name.
 std::string file_name_part(const std::string& text) {
   std::string part;
   for (const char c : text)
@@ -66,7 +67,7 @@ std::string file_name_part(const std::string& text) {
   return part.substr(0, part.find_last_not_of('_') + 1);
 }
 
-/// How many of the keys of an axis it takes to tell its values apart.
+/// The number of keys of an axis that are needed to distinguish its values.
 std::size_t naming_keys(const Axis& axis) {
   const std::size_t keys = axis.front().size();
   for (std::size_t count = 1; count < keys; ++count) {
@@ -110,7 +111,7 @@ std::vector<Published> published_of(const std::vector<PublishedResult>& results,
   return published;
 }
 
-// What the sweep sets would silently win.
+// Refuses values of the command line for keys of the sweep, since the sweep would silently override them.
 void refuse_overridden_keys(const std::vector<Axis>& axes, const StudyLayout& layout,
                             const ParameterSource& source) {
   for (const Axis& axis : axes)
@@ -128,7 +129,7 @@ void refuse_overridden_keys(const std::vector<Axis>& axes, const StudyLayout& la
     }
 }
 
-/// The combination with the value of the ladder before; none for the first.
+/// The combination with the previous value of the ladder; no value if this one has the first.
 std::optional<std::vector<Assignments>> combination_before(std::vector<Assignments> combination,
                                                            const std::vector<Axis>& axes,
                                                            const std::string& ladder) {
@@ -143,13 +144,13 @@ std::optional<std::vector<Assignments>> combination_before(std::vector<Assignmen
   return std::nullopt;
 }
 
-/// The parameters lie in the folder of the job then.
+/// The path must be absolute, because the parameters are written into the folder of the job.
 void name_state_absolutely(Parameters& parameters) {
   if (StateStage* start = start_state(parameters.stages); start && start->file)
     start->file = std::filesystem::absolute(*start->file).lexically_normal().string();
 }
 
-/// From the end of another job of the same kind. The path is relative to the folder of the job.
+/// Lets the job start from the end of another one. The path is relative to the folder of the job.
 void start_from(SweepJob& job, const std::string& predecessor, ParameterSource source) {
   job.predecessor = predecessor;
   source.start =
@@ -157,7 +158,7 @@ void start_from(SweepJob& job, const std::string& predecessor, ParameterSource s
   job.parameters = load_parameters(source);
 }
 
-/// Tables and numbers that are not finite stay TOML text.
+/// Converts a value to JSON. Tables, and numbers that are not finite, become their TOML text.
 Json json_of(const TomlNode& node) {
   if (const auto* array = node.get<TomlNode::Array>()) {
     Json entries = Json::array();

@@ -29,7 +29,7 @@ fs::path folder_of(const AnalysedRun& run) {
   return run.file.parent_path();
 }
 
-/// A row more, from the first row of another table; unknown where that lacks the column.
+/// Adds a row to the table from the first row of `row`; cells are unknown where `row` lacks the column.
 void add_row(Table& table, const Table& row, std::size_t rows) {
   for (const Column& column : row.columns)
     if (!table.find(column.name))
@@ -50,12 +50,12 @@ Column column_of(const StudyAxis& axis) {
   return {axis.column(), axis.unit, axis.value, {}, axis.labels};
 }
 
-/// Columns of the table of relaxation times that the summary lacks.
+/// Columns of the table `relaxation` that the summary of a run may lack.
 constexpr const char* of_relaxation[] = {"verdict",         "verdict_translation", "wave_number",
                                          "tau_translation", "tau_rotation",        "nematic_order",
                                          "orientation"};
 
-/// The summary of a run, and what is known of its relaxation.
+/// The summary of a run, with verdicts and relaxation times if they are known.
 Table row_of(const AnalysedRun& run) {
   Table row = *run.results.find("summary");
   if (const Table* relaxation = run.results.find("relaxation"))
@@ -85,7 +85,7 @@ Table runs_table(const AnalysedSweep& sweep) {
   return table;
 }
 
-/// Means with their errors, and half the width of their intervals.
+/// Adds the means with their errors, the half widths of their intervals and, if known, their scatter.
 void add_figure(const std::vector<SeedAverage>& averages, const std::string& name,
                 const std::string& unit, Table& table) {
   Column mean{name, unit}, interval{name + "_interval", unit}, scatter{name + "_scatter", "1"};
@@ -102,7 +102,7 @@ void add_figure(const std::vector<SeedAverage>& averages, const std::string& nam
   if (has_errors) table.columns.push_back(std::move(scatter));
 }
 
-/// The numbers of a row; codes are none.
+/// The numbers of a row, without those that are codes.
 Figures figures_of(const Table& row) {
   Figures figures;
   for (const Column& column : row.columns) {
@@ -144,13 +144,13 @@ struct Quantity {
   const char* name;
   const char* unit;
 };
-/// What the summary of a preparation may say of the state.
+/// The numbers of a state that the summary of a preparation may contain.
 constexpr Quantity of_preparation[] = {
     {"packing_fraction", "1"},  {"particles", "1"},     {"reduced_pressure", "1"},
     {"orientation_ratio", "1"}, {"nematic_order", "1"}, {"collisions", "1"},
     {"contact_number", "1"},    {"rattlers", "1"},      {"smallest_gap", "length"},
     {"overlaps", "1"},          {"wall_seconds", "s"}};
-/// What that of a run may say beyond its analysis.
+/// The numbers that the summary of a run may contain in addition to its analysis.
 constexpr Quantity of_run[] = {{"overlaps", "1"},
                                {"correction_moves", "1"},
                                {"early_releases_per_collision", "1"},
@@ -158,7 +158,7 @@ constexpr Quantity of_run[] = {{"overlaps", "1"},
                                {"wall_seconds", "s"},
                                {"collisions_per_second_with_output", "1/s"}};
 
-/// Adds to the summary of the analysis what it does not have or does not know.
+/// Adds to the summary of the analysis the numbers that it lacks or does not know.
 void add_figures(const Json& job, std::span<const Quantity> quantities, Results& results) {
   auto summary = std::ranges::find(results.tables, "summary", &Table::name);
   if (summary == results.tables.end())
@@ -194,14 +194,14 @@ AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
   return run;
 }
 
-/// What may differ between runs to which one law is fitted.
+/// Whether this key may differ between runs to which one law is fitted.
 bool is_free(const std::string& key) {
   return key == "system.packing_fraction" || key == "system.seed" ||
          key.starts_with("dynamics.duration") || key == "dynamics.equilibration" ||
          key.starts_with("prepare.") || key.starts_with("output.");
 }
 
-/// Names of columns, for those who draw the tables.
+/// Adds the names of the columns along which the tables are to be drawn.
 void add_axes(const std::vector<StudyAxis>& axes, Results& results) {
   if (axes.empty()) return;
   std::vector<std::string> series;
@@ -211,7 +211,7 @@ void add_axes(const std::vector<StudyAxis>& axes, Results& results) {
   results.provenance.emplace_back("series", fmt::format("{}", fmt::join(series, ",")));
 }
 
-/// The other keys that do differ between the jobs, with commas.
+/// The other keys whose values differ between the jobs, separated by commas.
 std::string differing_keys(const AnalysedSweep& sweep) {
   std::vector<std::string> keys;
   for (const StudyAxis& key : sweep.keys)
@@ -220,7 +220,8 @@ std::string differing_keys(const AnalysedSweep& sweep) {
   return fmt::format("{}", fmt::join(keys, ", "));
 }
 
-/// Densities are prepared to a goal, and miss it by rounding errors.
+/// The place of a job in the order of rows. Packing fractions are rounded, because preparations miss their target by
+/// rounding errors.
 using Place = std::tuple<std::vector<double>, double, std::uint64_t, fs::path>;
 Place place_of(const AnalysedSweep& sweep, std::size_t job) {
   const AnalysedRun& run = sweep.runs[job];
@@ -230,7 +231,7 @@ Place place_of(const AnalysedSweep& sweep, std::size_t job) {
           run.seed(), folder_of(run)};
 }
 
-/// The entries of these numbers.
+/// Keeps the entries with these indices, in this order.
 template <class T>
 void pick(const std::vector<std::size_t>& numbers, std::vector<T>& entries) {
   std::vector<T> picked;

@@ -8,38 +8,39 @@
 #include "workflow/sweep/sweep.h"
 
 /// @file
-/// What the jobs of a sweep say together.
+/// The combined results of the jobs of a sweep.
 namespace vitrel {
 
 /// The finished jobs of a sweep.
 struct AnalysedSweep {
-  /// By the axes, or by packing fraction (to six decimals) without any, then by seed, then by name.
+  /// Sorted by the axes, or without axes by packing fraction (to six decimals), then by seed, then by name.
   std::vector<AnalysedRun> runs;
   std::vector<SweptValues> values;                ///< of each run
   std::vector<std::vector<Published>> published;  ///< of each run
   std::vector<StudyAxis> keys;                    ///< all but the seed
-  std::vector<StudyAxis> axes;  ///< those that differ (study_axes); the last one is the abscissa
+  std::vector<StudyAxis> axes;  ///< keys whose values differ (study_axes); the last is the abscissa
 
-  /// What tells a job from the others: "κ = 2, φ = 0.5, seed 1".
+  /// The values that distinguish the job from the others: "κ = 2, φ = 0.5, seed 1".
   std::string label(std::size_t job) const;
 };
 
-/// What only prepares a state has the summary of its preparation; that of a run also has its overlaps, the exceptions
-/// of soft particles and its cost. Their results are those in their folders; with parameters of its own, the choice has
-/// the runs analysed again, and what is in the folders stays. Throws FileError or UserError, naming the file.
+/// Collects the results of the finished jobs. A job that only prepares a state has the summary of its preparation;
+/// the summary of a run also has its overlaps, the exceptions of soft particles, and its cost. The results are those
+/// in the folders of the jobs. If `choice` has parameters of its own, the runs are analyzed again, and the folders
+/// stay as they are. Throws FileError or UserError, naming the file.
 AnalysedSweep analysed_sweep(const SweepProgress& sweep, const AnalysisChoice& choice,
                              const AnalysisProgress& progress = {});
 
-/// Relaxation times and verdicts of the runs that could be judged, and fits of the laws of the glass
+/// Relaxation times and verdicts of the runs that could be judged, with fits of the laws of the glass transition.
 /// transition to them.
 GlassStudy glass_study(const AnalysedSweep& sweep);
 
-/// Table `runs` has a row for every job, in their order: its name, the values of the keys, the seed, the summary of its
-/// analysis, relaxation times and verdicts. If the sweep runs through seeds, `seeds` has averages over them
-/// (seed_averages.h). What publications say stands beside it in `published` and `published_exponents`
-/// (published_tables.h). The tables of the glass study follow. In the provenance are the files of the rows, row_0 …,
-/// and the names of columns of both tables: `axis`, the abscissa of charts, and `series`, which tell curves apart, with
-/// commas.
+/// The table `runs` has a row for every job, in their order: its name, the values of the keys, the seed, the summary
+/// of its analysis, relaxation times and verdicts. If the sweep runs through seeds, the table `seeds` has averages
+/// over them (seed_averages.h). The tables `published` and `published_exponents` compare them with publications
+/// (published_tables.h). The tables of the glass study follow. The provenance has the files of the rows, row_0 …, and
+/// the names of columns of the tables: `axis` is the abscissa of charts, and `series` lists the columns that
+/// distinguish curves, separated by commas.
 Results results_of_sweep(const AnalysedSweep& sweep, const GlassStudy& study);
 
 }  // namespace vitrel

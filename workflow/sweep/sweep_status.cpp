@@ -22,17 +22,17 @@ namespace fs = std::filesystem;
 
 using Row = std::vector<std::string>;
 
-/// What stands in a cell without a value.
+/// The text of a cell without a value.
 constexpr const char* missing_cell = "–";
 
-/// In characters, not bytes.
+/// The width in characters, not bytes.
 std::size_t width_of(const std::string& utf8) {
   return static_cast<std::size_t>(
       std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-/// Rows of cells, the titles first, as columns of equal width, without those that are empty but for their title; the
-/// first `texts` columns are flush left, the others right.
+/// Prints rows of cells, with the titles in the first row, as aligned columns. Columns without any value are left
+/// out. The first `texts` columns are flush left, the others flush right.
 std::string text_table(const std::vector<Row>& rows, std::size_t texts) {
   std::vector<std::string> text(rows.size());
   for (std::size_t k = 0; k < rows[0].size(); ++k) {
@@ -49,12 +49,12 @@ std::string text_table(const std::vector<Row>& rows, std::size_t texts) {
   return all;
 }
 
-/// A number of the summaries that has a column.
+/// A number of the summaries that has a column in the table.
 struct ShownFigure {
   const char* title;
   const char* key;
   const char* format;
-  bool is_averaged;  ///< over seeds, too
+  bool is_averaged;  ///< whether there is also an average over seeds
 };
 
 constexpr ShownFigure shown_figures[] = {
@@ -74,7 +74,7 @@ constexpr ShownFigure shown_figures[] = {
     {"overlaps", "overlaps", "{:.0f}", false},
     {"seconds", "wall_seconds", "{:.2f}", true}};
 
-/// Null unless the job is done.
+/// The summaries of the job; null unless it is done.
 Json done_of(const fs::path& folder) {
   return job_stage(folder) == JobStage::done ? job_done(folder) : Json();
 }
@@ -106,7 +106,7 @@ std::vector<SeedAverage> averages_of(const std::vector<SweepJob>& jobs, const fs
   return seed_averages(results);
 }
 
-/// Names the averages whose seeds differ by more than the errors of their runs explain.
+/// Reports the averages whose seeds differ by more than the errors of their runs explain.
 std::string scatter_text(const std::vector<SeedAverage>& averages) {
   std::string text;
   for (const SeedAverage& average : averages)
@@ -162,7 +162,7 @@ Json job_json(const SweepJob& job, const fs::path& folder) {
   return row;
 }
 
-/// "seed-1 was begun", or of many jobs their number.
+/// Names the jobs that were begun: "seed-1 was begun", or gives their number if there are many.
 std::string begun_text(const std::vector<std::string>& ids) {
   constexpr std::size_t max_named = 3;
   return ids.size() > max_named
@@ -170,7 +170,7 @@ std::string begun_text(const std::vector<std::string>& ids) {
              : fmt::format("{} {} begun", fmt::join(ids, ", "), ids.size() == 1 ? "was" : "were");
 }
 
-/// Folders of jobs that are none of these.
+/// The names of jobs that have a folder but are not among these.
 std::vector<std::string> strangers(const std::vector<SweepJob>& jobs, const fs::path& folder) {
   std::set<std::string> ids;
   if (!fs::exists(folder)) return {};
@@ -182,12 +182,12 @@ std::vector<std::string> strangers(const std::vector<SweepJob>& jobs, const fs::
 
 struct JobCost {
   StageCost preparation;
-  RunCost run;  ///< nothing of a job that only prepares a state
+  RunCost run;  ///< zero for a job that only prepares a state
 
   double seconds() const { return preparation.seconds + run.seconds; }
 };
 
-/// `start`: the packing fraction of the state that it starts from, if any.
+/// `start` is the packing fraction of the state from which the job starts, or 0.
 template <int Dim>
 JobCost cost_of(const SweepJob& job, double start) {
   const Configuration<Dim> some = representative_particles<Dim>(job.parameters);
@@ -198,14 +198,14 @@ JobCost cost_of(const SweepJob& job, double start) {
   return cost;
 }
 
-/// A state on file is taken to be as dense as the job wants it.
+/// The packing fraction from which the job starts. A state on file is assumed to be as dense as the job requires.
 double start_of(const SweepJob& job, const std::map<std::string, double>& density_of) {
   if (!start_state(job.parameters.stages)) return 0;
   const auto before = density_of.find(job.predecessor);
   return before == density_of.end() ? job.parameters.system.packing_fraction : before->second;
 }
 
-/// Nothing of a job without a run.
+/// The cell is empty for a job without a run.
 std::string number_of_run(double number) {
   return number > 0 ? fmt::format("{:.2g}", number) : missing_cell;
 }

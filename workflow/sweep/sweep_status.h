@@ -8,25 +8,25 @@
 #include "workflow/sweep/sweep_jobs.h"
 
 /// @file
-/// What the jobs of a sweep will cost, how far they are, and what they gave.
+/// The cost, the progress and the results of the jobs of a sweep.
 namespace vitrel {
 
-/// One row per job: its stage and results, "–" where there is none. Below them, why jobs failed; and if the
-/// sweep runs through seeds, averages over them with 95 % intervals.
+/// One row per job with its stage and results, "–" where there is none. Below the rows, the table says why jobs
+/// failed and, if the sweep runs through seeds, gives averages over them with 95 % intervals.
 std::string sweep_table(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder);
 
-/// `jobs`: of every job its values, stage, and summaries (done) or how its last attempt ended; `seeds`: averages over
-/// seeds, if the sweep runs through them.
+/// `jobs` holds for every job its values, its stage, and its summaries if it is done, or how its last attempt ended.
+/// `seeds` holds the averages over seeds if the sweep runs through them.
 Json sweep_summary(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder);
 
-/// What has changed in the parameter file since jobs were begun, a sentence each: parameters, and jobs in
-/// the folder that are no longer in the file.
+/// Says in one sentence each what has changed in the parameter file since the jobs were begun: parameters, and jobs
+/// that have a folder but are no longer in the file.
 std::vector<std::string> sweep_changes(const std::vector<SweepJob>& jobs,
                                        const std::filesystem::path& folder);
 
-/// What a sweep would do, in lines for a person: a row for every job with what its preparation and its run are expected
-/// to cost (preparation_plan.h, run_cost.h), how far it is, and the sum of what is left, with so many jobs at a time.
-/// Nothing is written.
+/// Says in lines of text what a sweep would do, and writes nothing. A row for every job gives its stage and what its
+/// preparation and its run are expected to cost (preparation_plan.h, run_cost.h). The last line gives the sum of what
+/// is left with `parallel` jobs at a time.
 std::string sweep_plan(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder,
                        int parallel);
 

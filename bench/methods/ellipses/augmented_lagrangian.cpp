@@ -11,7 +11,7 @@ namespace vitrel::bench {
 namespace {
 
 constexpr double violated = 1e-6;
-constexpr double farthest = 1e6;  // of the point from the start, in scaled units
+constexpr double farthest = 1e6;  // distance of the point from the start, in scaled units
 constexpr int max_evaluations = 1000;
 
 template <bool first>
@@ -25,7 +25,7 @@ double constraint(unsigned, const double* y, double* gradient, void* data) {
   return value;
 }
 
-// The optimiser's memory, kept from call to call.
+// The memory of the optimiser, which is kept from call to call.
 class Solver {
  public:
   Solver() : optimiser_(nlopt::LD_AUGLAG, 3) {
@@ -58,7 +58,7 @@ class Solver {
       double least;
       optimiser_.optimize(y_, least);
     } catch (const std::exception&) {
-      // Round-off or failure: the last point is in y_.
+      // After a round-off error or a failure, y_ holds the last point.
     }
     return {{y_[0], y_[1], y_[2]}, optimiser_.get_numevals()};
   }
@@ -79,7 +79,7 @@ Prediction2 augmented_lagrangian(const CollisionCase& asked, double tolerance) {
   thread_local Solver solver;
   const auto [y, evaluations] = solver.run(problem, tolerance);
   if (!y.allFinite()) return {Outcome::not_converged};
-  // Without a contact within reach the multipliers grow until the optimiser gives up.
+  // If there is no contact within reach, the multipliers grow until the optimiser gives up.
   if (!(problem.violation(y) <= violated)) return without_contact(Outcome::none, evaluations);
   return problem.contact(y, evaluations);
 }

@@ -18,7 +18,7 @@ Prediction2 circles(const CollisionCase& asked, double) {
 
   const double growth = one.growth_rate * one.shape.a + two.growth_rate * two.shape.a;
   const auto overlap = circle_overlap(d, v, reach, growth, asked.horizon);
-  // Touching at the start and not approaching: they part at once.
+  // Circles that touch at the start and do not approach separate at once.
   if (!overlap || overlap->end == 0) return {};
   const double time = overlap->begin;
   const Vec2 normal = (d + v * time).normalized();

@@ -5,8 +5,8 @@
 
 namespace vitrel::bench {
 
-/// Round pairs in closed form, growing or not: the earlier solution of |d + v t| = R(t), see bracket.h.
-/// not_converged for pairs of which one is not round. The tolerance has no meaning here.
+/// Round pairs in closed form, growing or not: the earlier solution of |d + v t| = R(t) (bracket.h). Answers
+/// not_converged if one body is not round. The tolerance has no meaning.
 Prediction2 circles(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::bench

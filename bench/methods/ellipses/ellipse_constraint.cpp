@@ -36,14 +36,14 @@ double EllipseConstraint::value(double time, const Vec2& point, Vec3& gradient) 
   const double size = size_at(time);
   const double a = flight_.body.a * size;
   const double b = flight_.body.b * size;
-  // ½ ∇ₓE in the frame of the ellipse, and turned back.
+  // This is ½ ∇ₓE, first in the frame of the ellipse and then turned back.
   const double along = c * p.x() + s * p.y();
   const double across = c * p.y() - s * p.x();
   const double f = along / (a * a);
   const double g = across / (b * b);
   const Vec2 half(c * f - s * g, s * f + c * g);
   const double q = along * f + across * g;
-  // Seen from the ellipse the point moves with −v − ω J p.
+  // In the frame of the ellipse the point moves with −v − ω J p.
   const double rate = -half.dot(flight_.motion.velocity) - omega * half.dot(perpendicular(p));
   gradient << 2 * rate - 2 * q * growth_rate_ / size, 2 * half;
   return q - 1;

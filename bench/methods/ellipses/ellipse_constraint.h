@@ -7,8 +7,8 @@ namespace vitrel::bench {
 
 /// The ellipse function of a growing ellipse in free flight,
 ///     E(t, x) = q(t, x)/s(t)² − 1,   q = (x − r(t))ᵀ Σ(t)⁻¹ (x − r(t)),   s(t) = size(t),
-/// Σ of the shape at size 1: negative inside, 0 on the boundary. With γ the growth rate and e the
-/// direction of t,
+/// with Σ of the shape at size 1. It is negative inside and 0 on the boundary. With the growth rate γ and the
+/// direction e of t,
 ///     ∇E = ∇q/s² − 2γ q/s³ e,
 ///     ∇²E = ∇²q/s² − 2γ/s³ (∇q eᵀ + e ∇qᵀ) + 6γ² q/s⁴ e eᵀ.
 class EllipseConstraint {
@@ -16,7 +16,7 @@ class EllipseConstraint {
   explicit EllipseConstraint(const Flight<GrowingEllipse>& flight);
 
   double value(double time, const Vec2& point) const;
-  /// Value and gradient in (t, x, y), without the price of the second derivatives.
+  /// Value and gradient in (t, x, y), without the cost of the second derivatives.
   double value(double time, const Vec2& point, Vec3& gradient) const;
   EllipseFunction with_hessian(double time, const Vec2& point) const;
 

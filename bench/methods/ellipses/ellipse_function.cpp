@@ -16,7 +16,7 @@ EllipseFunction ellipse_function(const Flight<Ellipse>& flight, double time, con
   const Vec2 p = rotation.transpose() * (point - pose.position);
   const Vec2 w = rotation.transpose() * flight.motion.velocity;
   const Vec2 p_t = -w - omega * perpendicular(p);
-  // ẇ = −ω J w, so p̈ = ω J w − ω J ṗ.
+  // Because ẇ = −ω J w, p̈ = ω J w − ω J ṗ.
   const Vec2 p_tt = omega * perpendicular(w) - omega * perpendicular(p_t);
 
   const Vec2 q(1 / (flight.body.a * flight.body.a), 1 / (flight.body.b * flight.body.b));
@@ -28,7 +28,7 @@ EllipseFunction ellipse_function(const Flight<Ellipse>& flight, double time, con
   e.gradient << 2 * dot(qp, p_t), 2 * rotation * qp;
   e.hessian(0, 0) = 2 * (dot(q.cwiseProduct(p_t), p_t) + dot(qp, p_tt));
   e.hessian.bottomRightCorner<2, 2>() = 2 * quadric;
-  // ∂/∂t of ∇ₓE = 2 R Q p: Ṙ = ω R J.
+  // This is ∂/∂t of ∇ₓE = 2 R Q p with Ṙ = ω R J.
   const Vec2 mixed = 2 * rotation * (omega * perpendicular(qp) + q.cwiseProduct(p_t));
   e.hessian.block<2, 1>(1, 0) = mixed;
   e.hessian.block<1, 2>(0, 1) = mixed.transpose();

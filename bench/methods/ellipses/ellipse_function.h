@@ -4,8 +4,8 @@
 
 namespace vitrel::bench {
 
-/// The ellipse function E(t, x) = (x − r(t))ᵀ Σ(t)⁻¹ (x − r(t)) − 1 of an ellipse in free flight:
-/// negative inside, 0 on the boundary, with exact first and second derivatives in (t, x, y).
+/// The ellipse function E(t, x) = (x − r(t))ᵀ Σ(t)⁻¹ (x − r(t)) − 1 of an ellipse in free flight, with exact first
+/// and second derivatives in (t, x, y). It is negative inside and 0 on the boundary.
 struct EllipseFunction {
   double value;
   Vec3 gradient;            ///< ∂/∂(t, x, y)

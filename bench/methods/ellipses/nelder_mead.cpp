@@ -20,7 +20,7 @@ double objective(const gsl_vector* y, void* data) {
   return f({gsl_vector_get(y, 0), gsl_vector_get(y, 1), gsl_vector_get(y, 2)});
 }
 
-// The minimiser's memory, kept from call to call.
+// The memory of the minimiser, which is kept from call to call.
 class Simplex {
  public:
   Simplex()
@@ -35,7 +35,7 @@ class Simplex {
   Simplex(const Simplex&) = delete;
   Simplex& operator=(const Simplex&) = delete;
 
-  // One search from y with a fresh simplex; false if it did not shrink to `tolerance`.
+  // Runs one search from y with a new simplex. Returns false if the simplex did not shrink to `tolerance`.
   bool run(PenalisedTime& f, Vec3& y, double edge, double tolerance, int& iterations) {
     gsl_multimin_function function{objective, 3, &f};
     for (int k = 0; k < 3; ++k) gsl_vector_set(start_, k, y[k]);

@@ -8,21 +8,22 @@
 
 namespace vitrel::bench {
 
-/// A function's value with its first two derivatives.
+/// A function's value with its first and second derivatives.
 struct SecondOrder {
   double value;
   Vec3 gradient;
   Eigen::Matrix3d hessian;
 };
 
-/// Damped Newton minimisation in three variables y, with 0 ≤ y₀ ≤ 1 kept by projection.
+/// Damped Newton minimisation in three variables y; projection keeps 0 ≤ y₀ ≤ 1.
 ///
-///   1. y₀ at a bound towards which the function falls is held there for the step.
-///   2. The Hessian is made positive by the absolute values of its eigenvalues; step = −|H|⁻¹∇f.
-///   3. The step is cut to a quarter until f falls by 10⁻⁴ of what the slope promises (infinite f is fine:
-///      that is the outside of a barrier).
-/// It ends when a step is shorter than `shortest` or no cut makes f fall, and after `max_steps` at
-/// the latest. Objective: SecondOrder operator()(y) and double value(y). Returns the steps.
+///   1. If y₀ is at a bound towards which the function falls, it is held there for the step.
+///   2. The eigenvalues of the Hessian are replaced by their absolute values; step = −|H|⁻¹∇f.
+///   3. The step is cut to a quarter until f falls by 10⁻⁴ of what the slope predicts. f may be infinite, as outside
+///      a barrier.
+///
+/// It ends when a step is shorter than `shortest`, when no cut makes f fall, or after `max_steps`. The objective has
+/// SecondOrder operator()(y) and double value(y). Returns the number of steps.
 template <class Objective>
 int minimise(const Objective& f, Vec3& y, double shortest, int max_steps) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
@@ -57,12 +58,12 @@ int minimise(const Objective& f, Vec3& y, double shortest, int max_steps) {
   return max_steps;
 }
 
-/// Minimises objective(μ) for μ = largest, largest/10, … down to `smallest`, each from where the last
-/// one ended, to steps of `accuracy` μ. Returns the steps of all.
+/// Minimises objective(μ) for μ = largest, largest/10, … down to `smallest`, each from the previous minimum and until
+/// steps are shorter than `accuracy` μ. Returns the total number of steps.
 template <class MakeObjective>
 int minimise_for_decreasing(const MakeObjective& objective, double largest, double smallest,
                             double accuracy, Vec3& y) {
-  constexpr int max_steps = 200;  // for one parameter
+  constexpr int max_steps = 200;  // for one value of the parameter
   int steps = 0;
   for (double mu = largest;; mu = std::max(0.1 * mu, smallest)) {
     steps += minimise(objective(mu), y, accuracy * mu, max_steps);

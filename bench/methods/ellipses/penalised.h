@@ -7,13 +7,12 @@
 
 namespace vitrel::bench {
 
-/// The objective of the methods that know neither constraints nor derivatives, in the variables of
-/// ScaledProblem:
+/// The objective of methods that use neither constraints nor derivatives, in the variables of ScaledProblem:
 ///     f(y) = τ + w (max(0, E₁)² + max(0, E₂)²) + 100 · (distance of τ from [0, 1]).
-/// At its minimum Eᵢ = λᵢ/2w with the multipliers λᵢ of the constraints, and the time is early by
-/// (λ₁² + λ₂²)/2w in units of the bracket. The exact penalty, without the squares, would not be early;
-/// but simplices collapse on its kink, a thousand times farther from the contact. Outside the bracket
-/// the ellipses are taken at its nearer end. Instead of NaN or infinity, 1e300.
+/// At its minimum Eᵢ = λᵢ/2w with the multipliers λᵢ of the constraints, and the time is early by (λ₁² + λ₂²)/2w in
+/// units of the bracket. The exact penalty, without the squares, would not be early, but simplices collapse on its
+/// kink, a thousand times farther from the contact. Outside the bracket the ellipses are evaluated at its nearer end.
+/// The value is 1e300 instead of NaN or infinity.
 class PenalisedTime {
  public:
   PenalisedTime(const ScaledProblem& problem, double weight) : problem_(problem), weight_(weight) {}

@@ -17,7 +17,7 @@ struct Sample {
   PerramWertheimRate f;
 };
 
-// An ellipse at one time, as the formula for the slope needs it.
+// An ellipse at one time, with the quantities that the slope needs.
 struct Moving {
   Moving(const Flight<GrowingEllipse>& flight, double time) {
     const Ellipse body = body_at(flight, time);
@@ -31,7 +31,7 @@ struct Moving {
     const Vec2 p = perpendicular(u);
     return aa * u * u.transpose() + bb * p * p.transpose();
   }
-  /// yᵀ Σ̇ y
+  /// Returns yᵀ Σ̇ y.
   double shape_rate(const Vec2& y) const {
     const double along = u.dot(y);
     const double across = perpendicular(u).dot(y);
@@ -43,14 +43,15 @@ struct Moving {
   Vec2 u;
 };
 
-// Where the cubic Hermite interpolant of F falls deepest between a falling and a rising sample.
+// The lowest point of the cubic Hermite interpolant of F between a falling and a rising sample.
 struct Dip {
   double time, value;
 };
 Dip deepest(const Sample& before, const Sample& after) {
   const double h = after.time - before.time;
   const double rise = after.f.value - before.f.value;
-  // p(x) = F + m₀ x + c₂ x² + c₃ x³ on 0 ≤ x ≤ 1; p' falls from m₀ < 0 and ends at m₁ > 0.
+  // The interpolant is p(x) = F + m₀ x + c₂ x² + c₃ x³ on 0 ≤ x ≤ 1. Its slope begins with m₀ < 0 and ends with m₁ >
+  // 0.
   const double m0 = h * before.f.slope;
   const double m1 = h * after.f.slope;
   const double c2 = 3 * rise - 2 * m0 - m1;

@@ -9,10 +9,10 @@
 
 namespace vitrel::bench {
 
-/// The problem "smallest t with E₁ ≤ 0 and E₂ ≤ 0" in variables of order 1, y = (τ, ξ, η): t = earliest +
-/// τ · duration, 0 ≤ τ ≤ 1 within the bracket, and x = origin + length · (ξ, η), the origin being the
-/// point that divides the line of centres at the earliest time like the radii, where the circumcircles
-/// touch if they do; the length is the smaller semi-minor axis. So y = 0 is where a search starts.
+/// The problem "smallest t with E₁ ≤ 0 and E₂ ≤ 0" in variables y = (τ, ξ, η) of order 1: t = earliest + τ · duration
+/// with 0 ≤ τ ≤ 1 in the bracket, and x = origin + length · (ξ, η). The origin divides the line of centres at the
+/// earliest time in the ratio of the circumradii, which is where the circumcircles touch if they do. The length is
+/// the smaller semi-minor axis. A search thus starts at y = 0.
 class ScaledProblem {
  public:
   ScaledProblem(const CollisionCase& asked, const Bracket& bracket)
@@ -38,7 +38,7 @@ class ScaledProblem {
     return {(time - earliest_) / duration_, offset.x(), offset.y()};
   }
 
-  /// The larger of E₁ and E₂: positive outside the common area.
+  /// The larger of E₁ and E₂, which is positive outside the common area.
   double violation(const Vec3& y) const {
     return std::max(one_.value(time(y), point(y)), two_.value(time(y), point(y)));
   }
@@ -50,7 +50,7 @@ class ScaledProblem {
   EllipseFunction full1(const Vec3& y) const { return second_order(one_, y); }
   EllipseFunction full2(const Vec3& y) const { return second_order(two_, y); }
 
-  /// The contact at an optimum: its time and point, and the normal along ∇E₁.
+  /// The contact at an optimum: its time and point, with the normal along ∇E₁.
   Prediction2 contact(const Vec3& y, int steps) const {
     Vec3 gradient;
     one_.value(time(y), point(y), gradient);

@@ -5,8 +5,8 @@
 
 namespace vitrel::bench {
 
-/// The default of the engine: advance along a separating axis (core/contact/first_contact.h).
-/// `tolerance` is the contact gap in units of the sum of the largest semi-axes (usual 32 ε).
+/// The default method of the engine, which advances along a separating axis (core/contact/first_contact.h).
+/// `tolerance` is the contact gap in units of the sum of the largest semi-axes (usually 32 ε).
 template <int Dim>
 Prediction<Dim> separating_axis(const CollisionCaseOf<Dim>& asked, double tolerance);
 

@@ -25,7 +25,7 @@ constexpr gsl_siman_params_t schedule{.n_tries = 1,
                                       .mu_t = 1.03,
                                       .t_min = 0};
 
-// What GSL copies about: plain memory.
+// The state that GSL copies as plain memory.
 struct State {
   double y[3];
   double smallest_step_log;

@@ -13,8 +13,8 @@ namespace vitrel::bench {
 namespace {
 
 constexpr double constraint_tolerance = 1e-10;
-constexpr double violated = 1e-8;    // of a constraint at the result
-constexpr double at_the_end = 1e-8;  // of the bracket, in units of time
+constexpr double violated = 1e-8;    // violation of a constraint by the result
+constexpr double at_the_end = 1e-8;  // distance from an end of the bracket, in units of time
 constexpr int max_evaluations = 2000;
 
 double constraint(unsigned, const double* x, double* gradient, void* data) {
@@ -26,7 +26,7 @@ double constraint(unsigned, const double* x, double* gradient, void* data) {
   return value;
 }
 
-// The optimiser's memory, kept from call to call.
+// The memory of the optimiser, which is kept from call to call.
 class Solver {
  public:
   Solver() : optimiser_(nlopt::LD_SLSQP, 3) {
@@ -59,7 +59,7 @@ class Solver {
       double least;
       converged = optimiser_.optimize(x_, least) != nlopt::MAXEVAL_REACHED;
     } catch (const std::exception&) {
-      // Round-off or failure: the last point is in x_.
+      // After a round-off error or a failure, x_ holds the last point.
     }
     return {Eigen::Map<Vec3>{x_.data()}, converged, optimiser_.get_numevals()};
   }
@@ -73,7 +73,7 @@ class Solver {
   std::vector<double> x_ = std::vector<double>(3);
 };
 
-// The box that both ellipses stay in during the bracket.
+// The box in which both ellipses stay during the bracket.
 struct Box {
   Vec2 lower, upper;
 };

@@ -2,7 +2,7 @@
 
 namespace vitrel::bench {
 
-/// The objective of NLopt's methods: the time, the first of the three variables.
+/// The objective of the methods of NLopt: the time, which is the first of the three variables.
 inline double time_objective(unsigned, const double* x, double* gradient, void*) {
   if (gradient) {
     gradient[0] = 1;

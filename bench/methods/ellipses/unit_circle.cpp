@@ -24,7 +24,7 @@ Mat2 rotation(double angle) {
 
 double min_eigenvalue(const Mat2& s, const Vec2& g) {
   const double length = g.norm();
-  const Vec2 e = g.normalized();  // 0 for g = 0
+  const Vec2 e = g.normalized();  // 0 if g = 0
   Eigen::Matrix4d matrix;
   matrix << s, -length * Mat2::Identity(), -length * e * e.transpose(), s;
   thread_local Eigen::EigenSolver<Eigen::Matrix4d> solver;
@@ -34,7 +34,7 @@ double min_eigenvalue(const Mat2& s, const Vec2& g) {
 }
 
 struct Transformed {
-  Mat2 to_circle;  // T
+  Mat2 to_circle;  // the matrix T
   Vec2 c;
   Mat2 m;
 };
@@ -58,11 +58,11 @@ ClosestPoint closest_to_origin(const Vec2& c, const Mat2& m) {
   const double mu = min_eigenvalue(s, g);
   Eigen::SelfAdjointEigenSolver<Mat2> basis;
   basis.computeDirect(s);
-  const Vec2 lambda = basis.eigenvalues();  // ascending
+  const Vec2 lambda = basis.eigenvalues();  // in ascending order
   const Vec2 along = basis.eigenvectors().transpose() * g;
 
   Vec2 w = -along.cwiseQuotient(lambda - Vec2::Constant(mu));
-  // The second denominator is the larger one; where the first is lost in rounding, |w| = 1 helps.
+  // The second denominator is the larger one. If the first is lost in rounding, |w| = 1 gives its component.
   if (!(lambda[0] - mu > 1e-7 * lambda[1])) {
     w[1] = lambda[1] > mu ? std::clamp(w[1], -1.0, 1.0) : 0.0;
     w[0] = std::copysign(std::sqrt((1 - w[1]) * (1 + w[1])), -along[0]);

@@ -2,10 +2,10 @@ const font = '12px system-ui, sans-serif';
 
 // Axes
 
-// uPlot's own ticks begin at the end of the axis, wherever that is, and its labels print "0" for values under 1e-3.
+// The ticks of uPlot begin at the end of the axis, wherever that is, and its labels print "0" for values under 1e-3.
 
 const digits = [1, 2, 3, 4, 5, 6, 7, 8, 9];
-/** Factors of the powers of ten that may be labelled. */
+/** Factors that labelled values may have besides a power of ten, from the coarsest choice to the finest. */
 const labelledFactors = [[1], [1, 2, 5], digits, [1, 1.5, 2, 2.5, ...digits.slice(2)],
                          [1, 1.2, 1.4, 1.6, 1.8, 2, 2.2, 2.4, 2.6, 2.8, 3, 3.5, 4, 4.5, ...digits.slice(4)]];
 
@@ -15,13 +15,13 @@ function logarithmicValues(low, high, factors) {
     .flat().filter((value) => value >= low && value <= high);
 }
 
-/** The coarsest choice of three values or more. */
+/** The labels of the coarsest choice that has three or more of them. */
 function labelledValues(low, high) {
   const choices = labelledFactors.map((factors) => logarithmicValues(low, high, factors));
   return choices.find((values) => values.length >= 3) ?? choices.at(-1);
 }
 
-/** What is labelled and, if these are not too many decades, 1, 2 … 9 times the powers of ten. */
+/** The labelled values and, if there are not too many decades, 1, 2 … 9 times the powers of ten. */
 function logarithmicSplits(low, high) {
   const between = high < 1e9 * low ? logarithmicValues(low, high, digits) : [];
   return [...new Set([...labelledValues(low, high), ...between])].sort((a, b) => a - b);
@@ -43,13 +43,13 @@ function logarithmicLabels(splits) {
 
 const linearLabels = (splits) => splits.map((value) => value === null ? '' : shortNumber(value, 6));
 
-/** As wide as the longest label. */
+/** The axis is as wide as its longest label. */
 const labelWidth = (plot, labels) => 18 + 7 * Math.max(3, ...(labels ?? []).map((label) => label.length));
 
-/** Not widened to whole decades. */
+/** The range is not widened to whole decades. */
 const logarithmicRange = (plot, low, high) => low > 0 ? [0.8 * low, 1.25 * high] : [0.1, 1];
 
-/** The ends of the curves shown, with their errors; on a logarithmic axis only what is positive. */
+/** The ends of the visible curves with their errors. On a logarithmic axis only positive values count. */
 function extentOf(plot, chart, low, high) {
   chart.data.values.forEach((values, k) => {
     if (!plot.series[k + 1].show || !chart.data.errors[k]) return;
@@ -63,7 +63,10 @@ function extentOf(plot, chart, low, high) {
   return [low, high];
 }
 
-/** A thousandth of the values at least: below that, the rounding errors of a constant would fill the chart. */
+/**
+ * The range covers at least a thousandth of the values; in a narrower one, the rounding errors of a constant would
+ * fill the chart.
+ */
 function linearRange(plot, low, high) {
   if (low === null) return [0, 1];
   const least = 1e-3 * Math.max(Math.abs(low), Math.abs(high)) || 1;

@@ -1,8 +1,8 @@
 // Data
 
 /**
- * All curves on one common, sorted grid of abscissas, as uPlot wants them; missing values are null. An abscissa that a
- * curve has several times is there as often.
+ * All curves on one common, sorted grid of abscissas, as uPlot requires. Missing values are null. An abscissa that a
+ * curve has several times appears as often in the grid.
  */
 function aligned(curves) {
   const keyed = curves.map((curve) => {
@@ -66,8 +66,8 @@ function insideFrame(plot, draw) {
 }
 
 /**
- * Stretches of [x, low end, high end] of value ± error; a point without an error ends one. Where value − error reaches zero
- * on a logarithmic axis, the frame is the end.
+ * Stretches of [x, low end, high end] of value ± error. A point without an error ends a stretch. Where value − error
+ * reaches zero on a logarithmic axis, the low end is that of the frame.
  */
 function errorStretches(plot, chart, k) {
   const { data } = chart;
@@ -83,7 +83,7 @@ function errorStretches(plot, chart, k) {
   return stretches;
 }
 
-/** Shades lines, and gives points their bars, as also single points of a line that have an error. */
+/** Shades the errors of lines, and draws bars for points and for isolated points of a line that have an error. */
 function drawErrors(plot, chart, k) {
   if (!chart.data.errors[k] || !plot.series[k + 1].show) return;
   const curve = chart.variant.curves[k];
@@ -105,7 +105,10 @@ function drawErrors(plot, chart, k) {
   });
 }
 
-/** Why curves end before the others or lack errors, in sentences; empty if none does that should not. */
+/**
+ * Sentences that say why curves end before others or lack errors; empty if no curve that should have errors lacks
+ * them.
+ */
 function missingNumbers(curves) {
   const measured = curves.filter((curve) => curve.noErrors), cut = measured.filter(({ isCut }) => isCut);
   const bare = measured.filter((curve) => curve.value.some((value, i) => value !== null && (curve.error?.[i] ?? null) === null));
@@ -115,7 +118,7 @@ function missingNumbers(curves) {
   return missing && `${missing[0].toUpperCase()}${missing.slice(1)}: ${[...reasons].join('; ')}.`;
 }
 
-/** A dashed line across the frame at a height with a meaning of its own. */
+/** Draws a dashed line across the frame at a height that has a meaning of its own. */
 function drawLevel(plot, value) {
   insideFrame(plot, (ctx, { left, width }) => {
     const y = plot.valToPos(value, 'y', true);
@@ -129,7 +132,7 @@ function drawLevel(plot, value) {
   });
 }
 
-/** From a lower bound on to larger values. */
+/** Draws an arrow from a lower bound to larger values. */
 function drawArrow(ctx, x, y) {
   const length = 16 * devicePixelRatio, head = 5 * devicePixelRatio;
   ctx.setLineDash([]);
@@ -142,7 +145,7 @@ function drawArrow(ctx, x, y) {
   ctx.stroke();
 }
 
-/** An abscissa with its error: a dashed upright line in a band; of one that is open, a lower bound, with an arrow. */
+/** Draws an abscissa with its error as a dashed vertical line in a band. A lower bound (open) has an arrow. */
 function drawUpright(plot, { value, error, open, colour, label }, row) {
   insideFrame(plot, (ctx, { left, top, height }) => {
     const [low, x, high] = [-1, 0, 1].map((sign) => plot.valToPos(value + sign * (error ?? 0), 'x', true));
@@ -170,7 +173,10 @@ function drawUpright(plot, { value, error, open, colour, label }, row) {
   });
 }
 
-/** A short dashed line of this slope: 1, the mark of diffusion, in the lower right corner; 2, of free flight, upper left. */
+/**
+ * Draws a short dashed line of this slope: 1 (diffusion) in the lower right corner, 2 (free flight) in the upper left
+ * one.
+ */
 function drawSlope(plot, slope) {
   const ratio = devicePixelRatio;
   insideFrame(plot, (ctx, { left, top, width, height }) => {
@@ -220,7 +226,7 @@ function moveByKey(chart, event) {
   if (!places.length) return;
   const i = places.reduce((best, i) => Math.abs(i - from) < Math.abs(best - from) ? i : best);
   plot.setCursor({ left: plot.valToPos(data.x[i], 'x'), top: plot.valToPos(data.values[k][i], 'y') });
-  // Where curves meet, the cursor would take the first of them.
+  // Where curves meet, the cursor would otherwise choose the first of them.
   plot.setSeries(k + 1, { focus: true });
   readOut(chart);
 }
@@ -235,7 +241,7 @@ function readOut(chart) {
     `${withError(value, chart.data.errors[k]?.[i])} ${chart.variant.unit}` + (note ? ` (${note})` : '');
 }
 
-/** What a curve looks like, from x on at the height y. */
+/** Draws a sample of the curve from x on at the height y. */
 function drawSwatch(context, curve, x, y) {
   const ratio = devicePixelRatio;
   context.strokeStyle = context.fillStyle = curve.colour();
@@ -257,11 +263,12 @@ const allCharts = [];
 const printedWidth = 360;  // about half the width of a sheet
 
 /**
- * One chart in `host`. `description`: heading; xSymbol, xUnit; namesX, what the abscissas 0, 1, 2 … stand for; logX, logY; file,
- * the name of its CSV; range, slopes, hint; variants, of which a select shows one: [{label, symbol, unit, curves, levels, uprights, rangeX}].
- * A curve: {label, x, value, error, noErrors (why some, or values at the end, are missing), isCut, notes (said with the values), colour(), points: 'full' or
- * 'hollow' instead of a line, dashed, thin, id}. Curves are switched off by their `id`, in the legend of the chart or from
- * outside (show); the legend names the first of each.
+ * A chart in `host`. The description has: heading; xSymbol, xUnit; namesX, the meanings of the abscissas 0, 1, 2 …;
+ * logX, logY; file, the name of its CSV; range, slopes, hint; and variants, of which a select shows one: [{label,
+ * symbol, unit, curves, levels, uprights, rangeX}]. A curve is {label, x, value, error, noErrors (why some errors, or
+ * values at the end, are missing), isCut, notes (read out with the values), colour(), points ('full' or 'hollow',
+ * instead of a line), dashed, thin, id}. The legend of the chart, or `show` from outside, switches curves off by
+ * their `id`. The legend names the first curve of each id.
  */
 class Chart {
   constructor(host, description) {
@@ -327,7 +334,7 @@ class Chart {
 
   csv() { return csvText(this); }
 
-  /** With titles and legend, which on the page stand around the plot. */
+  /** The chart as SVG, with the titles and the legend that surround the plot on the page. */
   svg() {
     const size = this.size(), context = new SvgContext(...this.figureSize());
     this.drawFigure(context, () => plotOn(context, this.options(size), this.columns()));
@@ -342,12 +349,15 @@ class Chart {
     return canvas.toDataURL('image/png');
   }
 
-  /** The curves that a legend names: the first of each id. */
+  /** The curves that a legend names, which are the first of each id. */
   namedCurves() {
     return this.variant.curves.filter((curve, k, all) => all.findIndex(({ id }) => id === curve.id) === k);
   }
 
-  /** Where a saved chart names the curves that are shown, in rows below the plot: [{curve, x, y}]. A single one needs no name. */
+  /**
+   * The places where a saved chart names its visible curves, in rows below the plot: [{curve, x, y}]. A single curve
+   * needs no name.
+   */
   legendPlaces() {
     const shown = this.namedCurves().filter(({ id }) => !this.hidden.has(id));
     const context = document.createElement('canvas').getContext('2d'), { width } = this.size();
@@ -389,7 +399,7 @@ class Chart {
     }
   }
 
-  /** The plot as vectors beside the canvas, for the paper. */
+  /** Puts the plot as vector graphics beside the canvas, for printing. */
   print() {
     const size = this.sizeFor(printedWidth), context = new SvgContext(size.width * devicePixelRatio, size.height * devicePixelRatio);
     plotOn(context, this.options(size), this.columns());
@@ -411,7 +421,7 @@ class Chart {
     readOut(this);
   }
 
-  /** A single curve needs none, nor do curves that a legend outside the chart names. */
+  /** A single curve needs no legend, nor do curves that a legend outside the chart names. */
   fillLegend() {
     const curves = this.namedCurves();
     this.legend.hidden = this.legendOutside || curves.length < 2;
@@ -427,7 +437,7 @@ class Chart {
     this.plot = new uPlot(this.options(this.size()), this.columns(), this.frame);
   }
 
-  /** As uPlot wants them. */
+  /** The columns in the form that uPlot requires. */
   columns() {
     return [this.data.x, ...this.data.values.map((column) => column.map((value) => this.logY && !(value > 0) ? null : value))];
   }
@@ -471,7 +481,7 @@ class Chart {
   }
 }
 
-// Paper is light, and has no canvas that would blur.
+// Prints use the light scheme, and vector graphics instead of the canvas, which would be blurred.
 
 addEventListener('beforeprint', () => {
   const wasDark = isDark(), scheme = root.style.colorScheme;
@@ -483,7 +493,7 @@ addEventListener('beforeprint', () => {
   }, { once: true });
 });
 
-/** Names a curve and switches it off and on. */
+/** A button that names a curve and switches it off and on. */
 function legendButton(curve, shown, toggle) {
   const button = element('button', { type: 'button', 'aria-pressed': String(shown) });
   const swatch = element('i', { class: curve.points ?? (curve.dashed ? 'dashed' : 'line') });

@@ -1,7 +1,7 @@
 const pageData = JSON.parse(document.getElementById('data').textContent);
 const byId = (id) => document.getElementById(id);
 
-/** The section around these charts, if there are none. */
+/** Hides the section around these charts if there are none. */
 function hideIfEmpty(charts) {
   byId(charts).closest('section').hidden = !byId(charts).childElementCount;
 }
@@ -13,7 +13,7 @@ function element(tag, attributes = {}, text = '') {
   return node;
 }
 
-/** A select with these labels; `choose(k)` when another one is taken. */
+/** A select with these labels. It calls `choose(k)` when the user selects another one. */
 function selection(label, labels, chosen, choose) {
   const host = element('label', { class: 'choice' }, label);
   const select = element('select');
@@ -43,10 +43,10 @@ function shortNumber(value, digits = 3) {
   return String(Number(value.toPrecision(digits)));
 }
 
-/** Pure numbers have no unit. */
+/** Puts the unit in brackets after the symbol. Pure numbers have no unit. */
 const withUnit = (symbol, unit) => unit ? `${symbol} [${unit}]` : symbol;
 
-/** The error with two digits, the value with as many decimals. */
+/** Formats the error with two digits and the value with as many decimals as the error. */
 function withError(value, error) {
   if (!(error > 0)) return shortNumber(value, 4);
   const decimals = Math.max(0, 1 - Math.floor(Math.log10(error)));
@@ -54,7 +54,7 @@ function withError(value, error) {
   return `${value.toFixed(decimals)} ± ${error.toFixed(decimals)}`;
 }
 
-// Light and dark: what the system wants, until the button is pressed.
+// The colour scheme is that of the system until the user presses the button.
 
 const systemDark = matchMedia('(prefers-color-scheme: dark)');
 const root = document.documentElement;
@@ -73,7 +73,7 @@ byId('theme').addEventListener('click', () => {
 });
 systemDark.addEventListener('change', recolour);
 
-/** Of a variable of the style sheet, as the present scheme has it. */
+/** The colour that a variable of the style sheet has in the present scheme. */
 function cssColour(name) {
   byId('theme').style.accentColor = `var(${name})`;
   return getComputedStyle(byId('theme')).accentColor;
@@ -81,13 +81,13 @@ function cssColour(name) {
 
 // Colours
 
-/** Of curves in one chart that are told apart by kind. */
+/** Colours of curves in one chart that differ in kind. */
 const curveColours = () => isDark()
   ? ['#56b4e9', '#f0a030', '#5fd0a0', '#e58fc0', '#e8dc5a', '#a99bf0', '#f07860', '#c3cad2']
   : ['#0072b2', '#c65200', '#00805c', '#b1407f', '#8a7a00', '#6a4fc4', '#a8281c', '#3c434b'];
 const curveColour = (k) => curveColours()[k % curveColours().length];
 
-// Viridis keeps its order of lightness for every kind of colour blindness.
+// The lightness of viridis varies monotonically for every kind of colour blindness.
 const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129],
                  [92, 200, 99], [170, 220, 50], [253, 231, 37]];
 
@@ -98,11 +98,14 @@ function sequential(x) {
   return `rgb(${mixed.join(' ')})`;
 }
 
-/** For curves in an order, x from 0 to 1; without the end that fades into the page. */
+/**
+ * Colours of curves that have an order, for x from 0 to 1. They leave out the end of the scale that fades into the
+ * page.
+ */
 const orderedColour = (x) => isDark() ? sequential(1 - 0.68 * x) : sequential(0.66 * (1 - x));
 
-// Orientations are cyclic: once around, light – orange – dark – blue – light, in the two directions
-// (lightness, blue to yellow) that all eyes tell apart. Mixed in OKLab.
+// Orientations are cyclic: once around, the colours run from light through orange, dark and blue back to light, in
+// the two directions (lightness, blue to yellow) that everyone can distinguish. They are mixed in OKLab.
 function orientationColour(angle) {
   const phase = 2 * angle;
   const lightness = 0.64 + 0.24 * Math.cos(phase);

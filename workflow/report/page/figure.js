@@ -1,19 +1,22 @@
-// Figures as figure_page.h describes them.
+// Draws the figures that figure_page.h describes.
 
 const { columns } = pageData.table;
 const isNumber = (value) => value !== null;
 const extent = (values) => [Math.min(...values), Math.max(...values)];
 
-/** Around zero, where both signs meet, whatever the values are far above. */
+/**
+ * The range about zero. If both signs occur, it is cut off at five times the depth below zero, however large the
+ * values are.
+ */
 const rangeAboutZero = (plot, low, high) => low < 0 && high > -5 * low ? [1.2 * low, -5 * low] : linearRange(plot, low, high);
 
-/** These columns, from a row on. */
+/** These columns as CSV, from row `first` on. */
 function columnsText(names, first = 0, count = Infinity) {
   const rows = names.map((name) => columns[name].value.slice(first, first + count));
   return [names, ...rows[0].map((_, i) => rows.map((row) => row[i] ?? 'nan'))].map((row) => row.join(',') + '\n').join('');
 }
 
-/** Whose curves are not drawn by uPlot. */
+/** A chart whose curves are not drawn by uPlot. */
 class DrawnChart extends Chart {
   canBeLogarithmic() { return false; }
 
@@ -24,11 +27,11 @@ class DrawnChart extends Chart {
   }
 }
 
-/** Lines through points in their order, with numbered marks, on equal scales. */
+/** A chart of lines through points in their order, with numbered marks, on equal scales. */
 class PathsChart extends DrawnChart {
   csv() { return columnsText(['time', ...this.columnNames]); }
 
-  /** All that is drawn: [low, high] of x and of y. */
+  /** The range of everything that is drawn: [low, high] of x and of y. */
   get window() {
     const { curves } = this.variant, room = 0.06;
     const along = (of, at) => extent([...curves.flatMap(of), ...this.outlines.flatMap((disk) => [at(disk) - disk.radius, at(disk) + disk.radius])])
@@ -41,7 +44,7 @@ class PathsChart extends DrawnChart {
     return { width, height: Math.round((width - this.besides) * (y[1] - y[0]) / (x[1] - x[0])) + 40 };
   }
 
-  /** Pixels of the width beside the frame. */
+  /** The part of the width, in pixels, that lies beside the frame. */
   get besides() { return 76; }
 
   options(size) {
@@ -89,7 +92,7 @@ class PathsChart extends DrawnChart {
   }
 }
 
-/** Colours of the values between the points of a lattice, with their key at the right. */
+/** A map whose colours show values on a lattice of points, with the key of the colours at the right. */
 class ColourMap extends DrawnChart {
   csv() { return columnsText(this.columnNames, this.firstRow, this.side ** 2); }
 
@@ -148,7 +151,7 @@ class ColourMap extends DrawnChart {
     }
   }
 
-  /** What is nearest to the cursor. */
+  /** Reads out the lattice point nearest to the cursor. */
   read(plot) {
     const [{ x, value }] = this.variant.curves, { left, top } = plot.cursor;
     if (!(left >= 0)) return this.readout.textContent = '';

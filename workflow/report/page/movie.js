@@ -1,5 +1,5 @@
-const margin = 0.03;  // of the box, shown beyond its edges
-const poseSize = 3;   // x, y, angle
+const margin = 0.03;  // width of the image around the box, in box lengths
+const poseSize = 3;   // x, y and angle
 
 const orientationPalette = Array.from({ length: 180 }, (_, k) => orientationColour(k * Math.PI / 180));
 
@@ -25,14 +25,14 @@ const planeColourings = {
   ...commonColourings,
 };
 
-/** The particles of a plane, drawn with the images of the box around it. */
+/** A player of particles in the plane, drawn with the images of the box around it. */
 class Player extends FilmPlayer {
   constructor() {
     super(planeColourings);
     this.view = { x: 0, y: 0, zoom: 1 };
   }
 
-  // View: centre in fractions of the box, never beyond its edges; zoom at least the whole box.
+  // The view has its centre in fractions of the box, within its edges; the zoom is at least that of the whole box.
 
   look(x, y, zoom) {
     const inside = (value) => Math.min(Math.max(value, -0.5), 0.5);
@@ -44,14 +44,16 @@ class Player extends FilmPlayer {
 
   reset() { this.look(0, 0, 1); }
 
-  /** Pixels per unit of length, and the sides of what the whole view shows. */
+  /** The sides of the box, pixels per unit of length, and the size of the canvas in pixels. */
   geometry() {
     const border = this.film.isWhole ? 1 + 2 * margin : 1;
     const scale = this.canvas.width / (this.film.windowAt(this.k)[0] * border) * this.view.zoom;
     return { box: this.film.boxAt(this.k), scale, width: this.canvas.width, height: this.canvas.height };
   }
 
-  /** Zooms such that the point under (px, py), in pixels of the page from the corner of the canvas, stays. */
+  /**
+   * Zooms so that the point under (px, py), in pixels of the page from the corner of the canvas, stays where it is.
+   */
   zoomAt(px, py, factor) {
     const { box, scale, width, height } = this.geometry();
     const zoom = Math.min(Math.max(this.view.zoom * factor, 1), 60);
@@ -97,14 +99,14 @@ class Player extends FilmPlayer {
     this.tell();
   }
 
-  /** From fractions of the box to pixels. */
+  /** Functions that convert fractions of the box to pixels. */
   placing() {
     const { box, scale, width, height } = this.geometry();
     return { scale, x: (fraction) => width / 2 + (fraction - this.view.x) * box[0] * scale,
              y: (fraction) => height / 2 - (fraction - this.view.y) * box[1] * scale };
   }
 
-  /** The particles of the image of the box at (sx, sy); those that overlap come last, in red. */
+  /** Draws the particles of the image of the box at (sx, sy). Particles that overlap come last, in red. */
   drawCopy(ctx, sx, sy, opacity) {
     const { film, k } = this;
     const { scale, x, y } = this.placing();

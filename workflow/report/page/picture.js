@@ -1,13 +1,13 @@
 const overlapRed = '#f2003c';
 const roundGrey = '#9aa3ad';
 
-/** Numbers of 16 bits from base64, low byte first. */
+/** Decodes 16-bit numbers from base64, low byte first. */
 function numbersFrom(base64) {
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
   return Uint16Array.from({ length: bytes.length / 2 }, (_, k) => bytes[2 * k] + 256 * bytes[2 * k + 1]);
 }
 
-/** Makes a canvas sharp; returns its context, in pixels of the screen. */
+/** Makes a canvas sharp on the screen. Returns its context, whose units are pixels of the screen. */
 function prepareCanvas(canvas, width, height) {
   canvas.width = Math.round(width * devicePixelRatio);
   canvas.height = Math.round(height * devicePixelRatio);
@@ -33,9 +33,9 @@ function drawSpeciesKey(ctx, { speciesNames }) {
 }
 
 /**
- * The picture of a page, its colours and how it is moved. Those who extend it have `subject`, what is shown (null: nothing
- * yet), draw(), drag(dx, dy, event) and zoomAt(x, y, factor) in pixels of the page, reset(), and for keys() an object of
- * actions. A colouring: {name, offered(subject), text(subject), key(ctx, subject), keyHeight}.
+ * The picture of a page with its colours and its input. A subclass has `subject`, which is shown (null if there is
+ * nothing yet), draw(), drag(dx, dy, event) and zoomAt(x, y, factor) in pixels of the page, reset(), and an object of
+ * actions for keys(). A colouring is {name, offered(subject), text(subject), key(ctx, subject), keyHeight}.
  */
 class Picture {
   constructor(colourings) {
@@ -95,14 +95,14 @@ class Picture {
     action();
   }
 
-  /** The wheel scrolls the page until the picture has the focus. */
+  /** The wheel scrolls the page unless the picture has the focus or Ctrl is pressed. */
   wheel(event) {
     if (!this.subject || (document.activeElement !== this.canvas && !event.ctrlKey)) return;
     event.preventDefault();
     this.zoomAt(event.offsetX, event.offsetY, Math.exp(-event.deltaY * (event.ctrlKey ? 0.01 : 0.002)));
   }
 
-  /** One finger or the mouse drags, two fingers zoom. */
+  /** One finger or the mouse drags the view, and two fingers zoom it. */
   point(event) {
     const spread = () => {
       const [p, q] = [...this.pointers.values()];
@@ -126,7 +126,7 @@ class Picture {
     if (old > 0) this.zoomAt((p.x + q.x) / 2, (p.y + q.y) / 2, spread() / old);
   }
 
-  /** Draws anew when the picture has another width, or the page other colours. */
+  /** Redraws when the width of the picture or the colours of the page change. */
   watch() {
     let width = this.canvas.parentElement.clientWidth;
     new ResizeObserver(() => {

@@ -1,6 +1,6 @@
 /**
- * What the page carries of a run or a state, ready to be asked for poses. A pose is a row of 16-bit numbers, the coordinates
- * first (movie.h). Lengths in units of the box sides are fractions.
+ * The movie of a run or a state as the page stores it, with functions that read its poses. A pose is a row of 16-bit
+ * numbers, beginning with the coordinates (movie.h). Fractions are lengths in units of the sides of the box.
  */
 class Film {
   constructor(data) {
@@ -15,15 +15,15 @@ class Film {
 
   boxAt(k) { return this.box[k] ?? this.box[0]; }
 
-  /** Sides of what is shown of the box. */
+  /** The sides of the part of the box that is shown. */
   windowAt(k) { return this.boxAt(k).map((side, axis) => side * this.window[axis]); }
 
-  /** Where the pose of a particle begins. */
+  /** The index at which the pose of a particle begins. */
   placeOf(k, i) { return poseSize * (k * this.particles + i); }
 
   axesOf(i) { return this.shapes[this.shape[i]]; }
 
-  /** Distances from the first frame, of every particle in every frame, in units of length. */
+  /** The distances of every particle in every frame from the first frame, in units of length. */
   get displacements() {
     if (this.distances) return this.distances;
     const { particles, frames, poses } = this;
@@ -44,7 +44,7 @@ class Film {
     return this.distances;
   }
 
-  /** The displacement that 2 % of the particles exceed in the last frame: where the colours end. */
+  /** The displacement that 2 % of the particles exceed in the last frame, where the colour scale ends. */
   get largestDisplacement() {
     this.largest ??= this.displacements.slice(-this.particles).sort()[Math.floor(0.98 * (this.particles - 1))] || 1;
     return this.largest;
@@ -53,7 +53,7 @@ class Film {
 
 const isRound = (axes) => axes.every((axis) => axis === axes[0]);
 
-// Colours of particles, as far as they are the same in the plane and in space; theirs for orientations come first.
+// The colourings that the plane and space share. The colouring by orientation differs and precedes them.
 
 const displacementPalette = Array.from({ length: 256 }, (_, k) => sequential(k / 255));
 
@@ -84,12 +84,12 @@ const commonColourings = {
   },
 };
 
-/** Frames per second. */
+/** The speeds that the user can choose, in frames per second. */
 const speeds = [1, 3, 10, 30, 60];
 
 /**
- * Shows a film: time, and what is said of it. Those who extend it draw a frame and move the view (Picture), and have `help`,
- * their part of the explanation of the keys.
+ * Plays a film and shows its time and notes. A subclass draws a frame and moves the view (Picture), and has `help`,
+ * its part of the explanation of the keys.
  */
 class FilmPlayer extends Picture {
   constructor(colourings) {
@@ -102,7 +102,7 @@ class FilmPlayer extends Picture {
 
   get subject() { return this.film; }
 
-  /** Shows this film, or says that there is nothing to show; `texts`: label, note. */
+  /** Shows this film, or says that there is nothing to show. `texts` has a label and a note. */
   load(data, texts) {
     this.pause();
     this.texts = texts;
@@ -119,7 +119,7 @@ class FilmPlayer extends Picture {
     byId('movie-help').textContent = `Keys, with the picture in focus: ${keys}${this.help}`;
   }
 
-  /** What a note says of images, after what it says of the particles. */
+  /** The part of a note that is about images; it follows the part about particles. */
   get imagesText() { return ''; }
 
   note() {
@@ -186,7 +186,7 @@ class FilmPlayer extends Picture {
     return { ' ': () => this.toggle(), Home: () => this.step(-Infinity), End: () => this.step(Infinity) };
   }
 
-  /** What the present frame is, in words. */
+  /** Describes the present frame in words. */
   tell() {
     const { film, k } = this;
     const time = `t = ${shortNumber(film.time[k], 5)} ${timeUnit}`;

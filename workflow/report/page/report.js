@@ -1,16 +1,18 @@
 const { runs, study, charts } = pageData;
 
-// A chart is of one table, or of several with a group of particles behind the name.
+// A chart shows one table, or several tables whose names differ in the group of particles at the end.
 
 const chartsOf = (...sections) => charts.filter(({ section }) => sections.includes(section));
 
-/** "q = 2.41", or from the lowest to the highest where it differs from run to run. */
+/** The range of the values: "q = 2.41", or from the lowest to the highest if they differ between runs. */
 function rangeText(symbol, values) {
   const [low, high] = [Math.min(...values), Math.max(...values)].map((value) => shortNumber(value, 3));
   return `${symbol} = ${low === high ? low : `${low} … ${high}, varying between runs`}`;
 }
 
-/** The k-th wave number or waiting time of these runs; collective functions have that of the wave vectors of the box. */
+/**
+ * The k-th wave number or waiting time of these runs. Collective functions have that of the wave vectors of the box.
+ */
 function numberText(k, of, origin, { table, column, symbol }) {
   const values = of.flatMap((run) => {
     const columns = run.tables[origin + table]?.columns;
@@ -19,27 +21,30 @@ function numberText(k, of, origin, { table, column, symbol }) {
   return values.length ? rangeText(symbol, values) : `${symbol}${subscript(k)}`;
 }
 
-/** An axis looks the same after half a turn: of the angles that stand for it, the nearest to the one before. */
+/**
+ * An axis looks the same after half a turn, so each angle is replaced by the equivalent one nearest to the angle
+ * before.
+ */
 function unwrapped(angles) {
   let last = 0;
   return angles.map((angle) => angle === null ? null : last = angle + Math.PI * Math.round((last - angle) / Math.PI));
 }
 
-// Correlations measured while the run went on have one table for each group of particles, for all charts together.
+// The correlations on the fly of a group of particles have one table, which all charts share.
 const onTheFly = 'on_the_fly_';
 const isOnTheFly = (group) => group.startsWith(onTheFly);
 
-/** Labels are for these runs together. */
+/** The columns that a chart shows, with labels that hold for all these runs together. */
 function shownColumns(table, { curves, numbers }, of, group = '') {
   const origin = isOnTheFly(group) ? onTheFly : '';
   return namedColumns(table.columns, curves, numbers ? (k) => numberText(Number(k), of, origin, numbers) : undefined);
 }
 
-/** The groups of particles that some run has a table of the chart for: "" if the table has no group. */
+/** The groups of particles for which some run has a table of the chart. A table without groups gives [""]. */
 function groupsOf(chart) {
   const names = runs.flatMap((run) => Object.keys(run.tables));
   if (!chart.hasGroups) return names.includes(chart.table) ? [''] : [];
-  const isOther = (name) => charts.some(({ table }) => table === name);  // orientation_distribution
+  const isOther = (name) => charts.some(({ table }) => table === name);  // for example orientation_distribution
   const groups = new Set(names.filter((name) => name.startsWith(chart.table + '_') && !isOther(name))
     .map((name) => name.slice(chart.table.length)));
   const others = new Set(runs.flatMap((run) => Object.keys(run.tables).filter((name) => isOnTheFly(name) &&
@@ -52,7 +57,7 @@ const tableOf = (run, chart, group) => run.tables[isOnTheFly(group) ? group : ch
 const tooFewBlocks = 'too few independent blocks';
 const noErrors = (run, group = '') => run.evenlySampled || isOnTheFly(group) ? tooFewBlocks : 'samples unevenly spaced in time';
 
-/** From the first known value to the last; a time of 0 has no place on a logarithmic axis. */
+/** The curve from the first known value to the last. A logarithmic axis has no place for the time 0. */
 function curveOf(table, name, chart) {
   const { value, error } = table.columns[name], x = table.columns[chart.x].value;
   const known = (y, i) => y !== null && (x[i] > 0 || !chart.logX);
@@ -61,14 +66,14 @@ function curveOf(table, name, chart) {
   return { x: shown(x), value: shown(value), error: shown(error), isCut: chart.x === 'time' && ['motion', 'relaxation'].includes(chart.section) && end < value.length };
 }
 
-/** Runs are ordered, and so are their colours. */
+/** Runs have an order, and their colours follow it. */
 const runColour = (run) => orderedColour(runs.length > 1 ? runs.indexOf(run) / (runs.length - 1) : 0.5);
 
 const particlesOf = (group) => group === '_all' ? 'all particles' : 'species ' + group.slice(1);
 const groupName = (group, groups) => groups.length < 2 ? ''
   : isOnTheFly(group) ? particlesOf(group.slice(onTheFly.length - 1)) + ', on the fly' : particlesOf(group);
 
-/** One run: its columns in one chart. */
+/** The variants of a chart for a single run, in which one chart shows the columns of the run together. */
 function variantsOfOneRun(chart, groups) {
   const [run] = runs;
   return groups.flatMap((group) => {
@@ -81,7 +86,7 @@ function variantsOfOneRun(chart, groups) {
   });
 }
 
-/** Several runs: one column of all of them in one chart. */
+/** The variants of a chart for several runs, each of which shows one column of all runs. */
 function variantsOfRuns(chart, groups) {
   return groups.flatMap((group) => {
     const names = new Map(runs.flatMap((run) => {
@@ -100,7 +105,7 @@ function variantsOfRuns(chart, groups) {
   });
 }
 
-/** In free flight at the beginning, mean squares grow as t². */
+/** Mean squares that begin with free flight grow as t², which a second slope marks. */
 function slopesOf(variants) {
   const steep = variants[0].curves.some(({ x, value }) => x.length > 1 && Math.log(value[1] / value[0]) > 1.6 * Math.log(x[1] / x[0]));
   return steep ? [1, 2] : [1];
@@ -114,7 +119,7 @@ function addChart(section, description) {
 
 const fileName = (heading) => heading.toLowerCase().replaceAll(/[^a-z]+/g, '_') + '.csv';
 
-/** What theory expects, once for all runs of which it is the same. */
+/** The expectations of theory, each drawn once for all runs that share it. */
 function referencesOf(chart) {
   const curves = runs.flatMap((run) => {
     const table = run.tables[chart.table];
@@ -124,7 +129,7 @@ function referencesOf(chart) {
   return [...new Map(curves.map((curve) => [String(curve.value), curve])).values()];
 }
 
-/** Null without curves. */
+/** The chart of a table for all runs; null if it has no curves. */
 function runsChart(chart) {
   const groups = groupsOf(chart);
   const variants = runs.length > 1 ? variantsOfRuns(chart, groups) : variantsOfOneRun(chart, groups);
@@ -143,7 +148,7 @@ function runsChart(chart) {
       symbol: symbol + (isNumbered && variant.name ? `, ${variant.name}` : '') })) });
 }
 
-// The legend of the runs stands above every group of charts, and all of these act alike.
+// The legend of the runs stands above every group of charts. A click in one of them acts on all.
 
 function runLegends(charts) {
   const hidden = new Set();
@@ -161,7 +166,7 @@ function runLegends(charts) {
   recoloured.push(fill);
 }
 
-// One run in the course of time
+// Charts of one run over time
 
 function courseChart(run, chart) {
   const table = run.tables[chart.table], columns = table?.columns;
@@ -182,7 +187,7 @@ function courseChart(run, chart) {
 const levelsOf = {
   none: () => [],
   mean: (summary) => summary?.compressibility_factor ? [summary.compressibility_factor.value[0]] : [],
-  /** Not of a run that cools. */
+  /** There is no equipartition in a run that cools. */
   equipartition: (summary) => {
     if (!summary?.rotations || byId('cooling')) return [];
     const translational = dimension / 2, rotational = 0.5 * summary.rotations.value[0] / summary.particles.value[0];
@@ -197,7 +202,7 @@ function showCourse(run) {
   hideIfEmpty('course');
 }
 
-/** Of a gas that cools, with Haff's law. */
+/** The chart of a gas that cools, with Haff's law. */
 function coolingChart({ tables: { energies }, cooling }) {
   if (!byId('cooling') || !energies) return;
   const { x, value } = curveOf(energies, 'translational', { x: 'time', logX: true });
@@ -208,7 +213,7 @@ function coolingChart({ tables: { energies }, cooling }) {
   addChart('cooling', { heading: 'Temperature', xSymbol: 't', xUnit: timeUnit, logX: true, logY: true, file: 'cooling.csv', variants: [{ symbol: 'T', unit: 'kT', curves }] });
 }
 
-// Against what the sweep runs through: the last axis; the others tell curves apart.
+// Charts over the parameters of the sweep: the last axis is the abscissa, and the other axes distinguish curves.
 
 const abscissa = study.axes.at(-1), seriesAxes = study.axes.slice(0, -1);
 const isOverDensity = abscissa.column.endsWith('packing_fraction') && !seriesAxes.length;
@@ -218,7 +223,10 @@ const density = { xSymbol: 'φ', xUnit: '', rangeX: (plot, low, high) => {
   return [low - space, high + space];
 } };
 
-/** The axis of these values: names at equal distances, or numbers, on a logarithmic scale if they span more than a decade. */
+/**
+ * The axis of these values. Names have equal distances; numbers have a logarithmic scale if they span more than a
+ * decade.
+ */
 function axisOf({ column, symbol }) {
   const { value, unit } = study.jobs.columns[column], xUnit = unitOf({ unit });
   if (value.some((entry) => typeof entry === 'string')) {
@@ -236,7 +244,7 @@ function axisOf({ column, symbol }) {
 
 const valueText = (value) => typeof value === 'string' ? value : shortNumber(value, 6);
 
-/** The rows of every curve, by its name. */
+/** The rows of every curve, by the name of the curve. */
 function seriesOf(jobs) {
   const series = new Map();
   jobs.columns[abscissa.column].value.forEach((_, row) => {
@@ -246,7 +254,7 @@ function seriesOf(jobs) {
   return series;
 }
 
-/** As the abscissa, or the same for all but for rounding errors. */
+/** Whether the packing fraction is the abscissa, or the same in all jobs up to rounding errors. */
 const isGivenDensity = ({ value }) => abscissa.column.endsWith('packing_fraction') || Math.max(...value) - Math.min(...value) < 1e-6;
 
 function studyChart({ heading, symbol, scale, curves: [{ column }] }) {
@@ -265,7 +273,7 @@ function studyChart({ heading, symbol, scale, curves: [{ column }] }) {
     variants: [{ label: 'values', symbol, unit: unitOf(quantity), curves: [...curves, ...published] }, ...ratiosOf(curves, symbol)] });
 }
 
-/** The other curves over the first, where both have points. */
+/** The ratios of the other curves to the first, where both have points. */
 function ratiosOf([first, ...others], symbol) {
   const curves = others.map((curve) => {
     const pairs = [...curve.x.entries()].map(([row, place]) => [row, first.x.indexOf(place)]).filter(([, below]) => below >= 0 && first.value[below]);
@@ -277,7 +285,7 @@ function ratiosOf([first, ...others], symbol) {
   return curves.length ? [{ label: `over that of ${first.label}`, symbol: `${symbol}, over that of ${first.label}`, unit: '', curves }] : [];
 }
 
-// What publications say of a sweep
+// Published results of the sweep
 
 /** The rows of a table of published results about this column. */
 const rowsAbout = (table, column) => [...table?.columns.quantity.value.keys() ?? []].filter((row) => table.columns.quantity.value[row] === column);
@@ -291,7 +299,7 @@ function publishedPoints(column, place) {
   });
 }
 
-/** Lines through the middle of the points to which they apply. */
+/** Lines of the published power laws, each through the middle of the points to which it applies. */
 function publishedLaws(column, curves) {
   const columns = study.published_exponents?.columns, mean = (numbers) => numbers.reduce((sum, number) => sum + number / numbers.length, 0);
   return rowsAbout(study.published_exponents, column).map((row) => {
@@ -303,7 +311,7 @@ function publishedLaws(column, curves) {
   });
 }
 
-/** The numbers of both, side by side. */
+/** The table of published and measured numbers, side by side. */
 function publishedTable() {
   const rows = [], heading = (column) => charts.find(({ section, curves }) => section === 'study' && curves[0].column === column).heading;
   const add = (what, columns, row, power) => rows.push([what, `${heading(columns.quantity.value[row])}${power}`, shortNumber(columns.published.value[row], 4),
@@ -324,12 +332,14 @@ function publishedTable() {
 // Glass
 
 const kinds = ['translation', 'rotation', 'rotation in the nematic'];
-/** By what the table says of a run. */
+/** Labels and kinds of points by what the table says about the orientations of a run. */
 const orientations = { 'relaxes': { label: 'orientations relax', kind: 1 }, 'nematic order': { label: 'kept by nematic order', kind: 2 },
                        'does not relax': { label: 'orientations do not relax within the run', kind: 6 } };
 const found = 'found', lowerBound = 'lower bound only', notEquilibrated = ', not equilibrated';
 
-/** These rows of the table `relaxation` that have a value, as points: full, or hollow if the run is not in equilibrium. */
+/**
+ * The rows of the table `relaxation` that have a value, as points: full, or hollow if the run is not in equilibrium.
+ */
 function glassPoints(column, rows, label, colour) {
   const { packing_fraction: phi, [column]: { value, error } } = study.relaxation.columns;
   const verdict = study.relaxation.columns[column === 'tau_translation' ? 'verdict_translation' : 'verdict'];
@@ -355,7 +365,10 @@ const laws = [
   { name: 'Vogel–Fulcher', logarithm: (phi, { phiC, s, logPrefactor }) => logPrefactor + s * phi / (phiC - phi) },
 ];
 
-/** The law over the best window, and dashed a little beyond: a quarter of it, or until times are ten times as long. */
+/**
+ * The law over the best window, and dashed a little beyond: by a quarter of the window, or until times are ten times
+ * as long.
+ */
 function lawCurves(name, law, fit, colour) {
   const { low, high, phiC } = fit;
   if ([low, high, phiC, fit.s, fit.logPrefactor].includes(null)) return [];
@@ -378,7 +391,7 @@ function markOf(name, columns, k, colour) {
   return { value: least, open: true, colour, label: `φc ${name} > ${least.toFixed(3)}` };
 }
 
-/** What a law makes of the times shown: curves, and φ_c as uprights. */
+/** The curves of a law fitted to the times shown, with φ_c as vertical lines. */
 function fitsOf(law) {
   const columns = study.glass_fit.columns;
   const of = (column, k) => columns[column].value[k];
@@ -406,7 +419,7 @@ function timesChart() {
   addChart('study', { heading: 'Relaxation times', ...density, logY: true, file: 'relaxation_times.csv', variants });
 }
 
-/** The order of rotors that have none is not zero, as there are so few. */
+/** The nematic order that so few rotors have by chance if they have none on average. */
 function orderByChance() {
   const { packing_fraction: phi, nematic_by_chance: chance } = study.relaxation.columns;
   const rows = glassRows().filter((k) => chance.value[k] !== null && phi.value[k] !== phi.value[k - 1]);
@@ -423,7 +436,7 @@ function orderChart() {
     variants: [{ symbol: 'S', unit: '', curves: [...points, orderByChance()] }] });
 }
 
-/** Times at different wave numbers cannot be compared. */
+/** Warns if the runs have different wave numbers, at which times cannot be compared. */
 function tellWaveNumbers() {
   const values = (study.relaxation.columns.wave_number?.value ?? []).filter((q) => q !== null);
   if (!values.length) return;
@@ -433,7 +446,7 @@ function tellWaveNumbers() {
       `analysis.wave_numbers=[${shortNumber(Math.max(...values), 2)}]`);
 }
 
-/** Charts of the glass take the place of those of these columns. */
+/** Charts of the glass that take the place of the charts of these columns. */
 const glassCharts = { tau_translation: timesChart, tau_rotation: () => {}, nematic_order: orderChart };
 
 function studyCharts() {

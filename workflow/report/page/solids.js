@@ -1,6 +1,6 @@
-const poseSize = 7;  // x, y, z; the quaternion w, x, y, z
+const poseSize = 7;  // x, y, z, then the quaternion w, x, y, z
 
-/** Where a body is, in units of length from the middle of the box, and how it is turned. */
+/** The position of a body, in units of length from the middle of the box, and its orientation. */
 function solidPose(film, k, i) {
   const at = film.placeOf(k, i), box = film.boxAt(k);
   const signed = (value) => (value << 16 >> 16) / 32767;
@@ -10,8 +10,8 @@ function solidPose(film, k, i) {
 
 // Colours
 
-// Of the three axes; an axis w between them has the mixture with the shares w_k², whose sum is 1. They differ in lightness
-// and along blue and yellow, for all eyes.
+// Colours of the three axes. An axis w has a mixture of them with the shares w_k², whose sum is 1. The colours differ
+// in lightness and from blue to yellow, which everyone can distinguish.
 const axisColours = [[238, 170, 40], [52, 176, 160], [84, 72, 196]];
 
 function mixedColour(shares) {
@@ -19,11 +19,11 @@ function mixedColour(shares) {
   return `rgb(${mixed.map(Math.round).join(' ')})`;
 }
 
-/** Red, green and blue of #rrggbb or rgb(…). */
+/** The red, green and blue of #rrggbb or rgb(…). */
 const components = (colour) => colour[0] === '#' ? [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16))
   : colour.match(/[\d.]+/g).slice(0, 3).map(Number);
 
-/** The axis that a body is oriented along: of symmetry, else the longest. */
+/** The axis that shows the orientation of a body: the axis of symmetry, else the longest. */
 function figureAxis([a, b, c], [w, x, y, z]) {
   const own = b === c ? 0 : a === c ? 1 : a === b ? 2 : [a, b, c].indexOf(Math.max(a, b, c));
   return [[1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
@@ -31,7 +31,7 @@ function figureAxis([a, b, c], [w, x, y, z]) {
           [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]][own];
 }
 
-/** All mixtures in a triangle, the axes at its corners. */
+/** Draws all mixtures in a triangle with the axes at its corners. */
 function drawAxesKey(ctx) {
   const side = 66, height = side * Math.sqrt(0.75), left = 24, top = 14;
   for (let row = 0; row < height; ++row) for (let column = 0; column < side; ++column) {
@@ -56,8 +56,9 @@ const solidColourings = {
   ...commonColourings,
 };
 
-// Drawing by WebGL. Parallel rays along z of the view meet each body within the ellipse that it casts; the part of the ray
-// that is in the body, in the box and behind the slice is exact in every pixel, so that cuts are flat and true.
+// The bodies are drawn by WebGL. Parallel rays along z of the view meet each body within the ellipse onto which it is
+// projected. The part of the ray that lies in the body, in the box and behind the slice is computed exactly in every
+// pixel, so that cuts are flat and exact.
 
 const solidVertices = `#version 300 es
   layout(location = 0) in vec3 centre;
@@ -175,7 +176,7 @@ const edgePixels = `#version 300 es
   void main() { shown = vec4(ink, 1); }`;
 
 class SolidPainter {
-  /** Throws where there is no WebGL 2. */
+  /** Throws if there is no WebGL 2. */
   constructor() {
     this.canvas = document.createElement('canvas');
     this.gl = this.canvas.getContext('webgl2', { antialias: false, alpha: true, premultipliedAlpha: true });
@@ -199,7 +200,7 @@ class SolidPainter {
     return { program, place: (name) => gl.getUniformLocation(program, name), array: gl.createVertexArray(), buffer: gl.createBuffer() };
   }
 
-  /** Numbers of all instances; `sizes`: of their attributes. */
+  /** Fills the buffer with the numbers of all instances. `sizes` are those of their attributes. */
   fill({ array, buffer }, numbers, sizes) {
     const { gl } = this;
     gl.bindVertexArray(array);
@@ -214,7 +215,7 @@ class SolidPainter {
     }, 0);
   }
 
-  /** The bodies of a frame first, then their images, which are left out if not wanted. */
+  /** Loads the bodies of a frame, and then their images, so that a smaller count leaves the images out. */
   load(film, k, colouring) {
     this.loadEdges(film.windowAt(k).map((side) => side / 2));
     const { particles } = film, images = film.images[k], box = film.boxAt(k), size = 13;
@@ -233,7 +234,7 @@ class SolidPainter {
     this.fill(this.solids, numbers, [3, 4, 3, 3]);
   }
 
-  /** `half`: half the sides of what is shown of the box. */
+  /** `half` has half the sides of the part of the box that is shown. */
   loadEdges(half) {
     const edges = [0, 1, 2].flatMap((axis) => [[-1, -1], [-1, 1], [1, -1], [1, 1]].map((signs) => {
       const end = (sign) => half.map((side, k) => side * (k === axis ? sign : signs[(k - axis + 3) % 3 - 1]));
@@ -243,7 +244,10 @@ class SolidPainter {
     this.fill(this.edges, edges.flat(), [3, 3]);
   }
 
-  /** view: rotation, column after column; window: what is in the middle, pixels per length, farthest depth. */
+  /**
+   * `view` is a rotation, column after column; `middle` is the point in the middle of the window, `scale` is pixels
+   * per length, and `depth` is the farthest depth.
+   */
   draw(width, height, { view, middle, scale, depth, count, cut, slice, page, ink }) {
     const { gl, canvas } = this;
     canvas.width = width;
@@ -273,19 +277,19 @@ class SolidPainter {
 const times = (p, q) => [0, 1, 2].flatMap((column) => [0, 1, 2].map((row) =>
   p[row] * q[3 * column] + p[3 + row] * q[3 * column + 1] + p[6 + row] * q[3 * column + 2]));
 
-/** Rotation about x or y of the view. */
+/** A rotation about x or y of the view. */
 function turnAbout(axis, angle) {
   const c = Math.cos(angle), s = Math.sin(angle);
   return axis === 'x' ? [1, 0, 0, 0, c, s, 0, -s, c] : [c, 0, -s, 0, 1, 0, s, 0, c];
 }
 
-// z upwards, seen from the front right above.
+// z points upwards; the box is seen from the front right, from above.
 const firstView = times(turnAbout('x', 0.42), times(turnAbout('y', -0.6), [1, 0, 0, 0, 0, -1, 0, 1, 0]));
 
-/** Red, green and blue from 0 to 1 of a colour of the style sheet. */
+/** The red, green and blue, from 0 to 1, of a colour of the style sheet. */
 const channels = (name) => components(cssColour(name)).map((value) => value / 255);
 
-/** The bodies in a box. */
+/** A player of bodies in a box. */
 class Player extends FilmPlayer {
   constructor() {
     super(solidColourings);
@@ -310,7 +314,7 @@ class Player extends FilmPlayer {
       ? `; with their images, ${film.particles + film.images[0].length / 4} bodies meet the box` : '';
   }
 
-  // View: a rotation, what is in the middle, and the zoom; with zoom 1 the box fits however it is turned.
+  // The view is a rotation, the point in the middle, and the zoom. With zoom 1 the box fits in every rotation.
 
   reset() {
     this.view = { turn: firstView, x: 0, y: 0, zoom: 1 };
@@ -323,7 +327,7 @@ class Player extends FilmPlayer {
     this.draw();
   }
 
-  /** Pixels of the page per length. */
+  /** Pixels of the page per unit of length. */
   get scale() { return 0.5 * this.canvas.clientWidth / this.reach * this.view.zoom; }
   get reach() { return 0.515 * Math.hypot(...this.film.windowAt(this.k)); }
 
@@ -333,7 +337,7 @@ class Player extends FilmPlayer {
     this.draw();
   }
 
-  /** The point under (px, py) stays. */
+  /** Zooms so that the point under (px, py) stays where it is. */
   zoomAt(px, py, factor) {
     const zoom = Math.min(Math.max(this.view.zoom * factor, 0.5), 40);
     const moved = (1 - this.view.zoom / zoom) / this.scale;
@@ -361,20 +365,20 @@ class Player extends FilmPlayer {
 
   // Drawing
 
-  /** The normal of the slice in the box, and how far along it the bodies are shown. */
+  /** The normal of the slice in the box, and the distance along it up to which bodies are shown. */
   get slice() {
     const { turn } = this.view, choice = byId('slice-axis').value;
     const normal = choice === 'view' ? [turn[2], turn[5], turn[8]] : ['x', 'y', 'z'].map((axis) => axis === choice ? 1 : 0);
     const half = this.film.windowAt(this.k).reduce((sum, side, k) => sum + 0.5 * side * Math.abs(normal[k]), 0);
     const share = Number(byId('slice').value);
-    // At its end nothing is cut, not even what sticks out of the box.
+    // At the end of the slider nothing is cut, not even bodies that stick out of the box.
     return [...normal, share === 1 ? 10 * this.depth : (2 * share - 1) * half];
   }
 
-  /** Beyond all that can be seen. */
+  /** A depth beyond everything visible. */
   get depth() { return 2 * (Math.hypot(...this.film.boxAt(this.k)) + this.film.longest); }
 
-  /** At most once per frame of the screen. */
+  /** Draws at most once per frame of the screen. */
   draw() {
     this.tell();
     this.waiting ??= requestAnimationFrame(() => {
@@ -390,7 +394,7 @@ class Player extends FilmPlayer {
     this.painted = content;
     const side = canvas.clientWidth;
     const ctx = prepareCanvas(canvas, side, side);
-    const fine = Math.max(2, devicePixelRatio);  // two points to a pixel: smooth edges
+    const fine = Math.max(2, devicePixelRatio);  // two points per pixel make edges smooth
     painter.draw(fine * side, fine * side, {
       view: view.turn, middle: [view.x, view.y], scale: fine * this.scale, depth: this.depth,
       count: byId('images').checked ? painter.bodies : film.particles,
@@ -401,7 +405,7 @@ class Player extends FilmPlayer {
     this.drawAxes(ctx);
   }
 
-  /** Where x, y and z point. */
+  /** Draws the directions of x, y and z. */
   drawAxes(ctx) {
     const { turn } = this.view, length = 22 * devicePixelRatio, middle = 38 * devicePixelRatio;
     ctx.font = `600 ${13 * devicePixelRatio}px system-ui, sans-serif`;

@@ -1,4 +1,4 @@
-/** A chart in its host, which is removed if there is nothing to show. */
+/** Draws a chart in its host, which is removed if there is nothing to show. */
 function chartOf(id, { symbol, unit, levels, levelName, heading, noErrors, ...description }) {
   const host = byId(id), curve = pageData[id];
   if (!curve) return host?.remove();
@@ -16,6 +16,6 @@ chartOf('orientation', { ...decay, heading: 'Orientations kept', symbol: 'C₂(t
 chartOf('displacement', { ...decay, heading: 'Displacement in widths 2b', symbol: '√⟨|r(t) − r(0)|²/(2b)²⟩',
   levels: [1], levelName: '1', range: (plot, low, high) => [0, 1.08 * Math.max(1, high)] });
 if (dimension === 2) hideIfEmpty('correlations');
-else byId('clock').hidden = true;  // a packing is at no time
+else byId('clock').hidden = true;  // a packing has no time
 new Player().load(pageData.movie, { label: pageData.label, note: pageData.movie ? '' : 'The state holds no particles.' });
 recolour();

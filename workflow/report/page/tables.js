@@ -1,6 +1,6 @@
-// Charts as the tables of the analysis describe them: observable.h
+// Makes charts from the tables of the analysis as observable.h describes them.
 
-/** In the words of the page. */
+/** The unit of a column in the words of the page. */
 const unitOf = (column) => unitNames[column.unit] ?? column.unit;
 
 const ranges = {
@@ -9,11 +9,14 @@ const ranges = {
   aroundOne: (plot, low, high) => [Math.min(0, low), 1.06 * Math.max(1, high)],
 };
 
-/** Matches the names of columns that have a number for `#` or a text for `*`. */
+/** A pattern for names of columns, in which `#` matches a number and `*` any text. */
 const columnPattern = (column) => new RegExp(`^${column.replace('#', '(\\d+)').replace('*', '(.+)')}$`);
 const placeholderText = (part) => /^\d+$/.test(part) ? subscript(part) : part.replace('_', '–');
 
-/** [{name, label}] of the columns that these curves stand for, each as the first of them; `text` of what `#` and `*` stand for. */
+/**
+ * The columns that match these curves, as [{name, label}], each for the first curve that it matches. `text` turns
+ * what `#` or `*` matches into text.
+ */
 function namedColumns(columns, curves, text = placeholderText) {
   const taken = new Set();
   return curves.flatMap(({ column, label }) => Object.keys(columns).flatMap((name) => {
@@ -24,12 +27,12 @@ function namedColumns(columns, curves, text = placeholderText) {
   }));
 }
 
-/** The frame of a chart and its variants, whose curves have the units of these columns. */
+/** The frame of a chart and its variants. The curves of the variants have the units of these columns. */
 function chartDescription({ scale, ...chart }, columns, name) {
   return { ...chart, xUnit: unitOf(columns[chart.x]), unit: unitOf(columns[name]), logY: scale === 'logarithmic', range: ranges[scale] };
 }
 
-/** Charts of one configuration, in the hosts that are called after their tables. */
+/** Draws the charts of one configuration in the hosts that have the names of their tables. */
 function stateCharts({ tables, charts }) {
   for (const chart of charts.filter(({ table }) => byId(table))) {
     const host = byId(chart.table), columns = tables[chart.table]?.columns ?? {};

@@ -1,9 +1,9 @@
-// Charts as vectors: what is drawn on a canvas, recorded as SVG. It has the methods that uPlot and the charts call.
+// Records as SVG what charts draw on a canvas. The context has the methods that uPlot and the charts call.
 
 const svgNumber = (value) => String(Math.round(100 * value) / 100);
 const svgText = (text) => String(text).replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
 
-/** A path in the place of Path2D. */
+/** A path that replaces Path2D. */
 class SvgPath {
   constructor(other) { this.text = other?.text ?? ''; }
 
@@ -29,7 +29,7 @@ class SvgPath {
 let clipPaths = 0;
 const measuring = document.createElement('canvas').getContext('2d');
 
-/** A drawing context of this size in pixels; `text()` is the SVG of what it was given to draw. */
+/** A drawing context of this size in pixels. `text()` returns everything drawn so far as SVG. */
 class SvgContext {
   constructor(width, height) {
     this.canvas = { width, height };
