@@ -7,6 +7,7 @@
 #include "analysis/observables/dynamics_tables.h"
 #include "analysis/structure/order.h"
 #include "core/error.h"
+#include "tests/support/frames.h"
 #include "tests/support/free_brownian.h"
 #include "tests/support/walking_solids.h"
 
@@ -18,12 +19,10 @@ constexpr std::size_t particles = 400;
 /// Free until frame 40, and at rest from there to frame 80.
 MemoryTrajectory2 arrested() {
   MemoryTrajectory2 free = free_brownian(ellipses(particles), 41, 3);
-  std::vector<Configuration2> frames;
-  for (std::size_t k = 0; k <= 80; ++k) {
-    frames.push_back(free.read(std::min<std::size_t>(k, 40)));
-    frames.back().time = brownian_step * static_cast<double>(k);
-  }
-  return MemoryTrajectory2(std::move(frames));
+  return trajectory_of(81, free.read(0), [&](Configuration2& c, std::size_t k) {
+    if (k <= 40) c = free.read(k);
+    c.time = brownian_step * static_cast<double>(k);
+  });
 }
 
 // Mean squares scatter by √2 of themselves, of one angle or, per particle, of two coordinates by 1.

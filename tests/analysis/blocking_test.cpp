@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/random/stream.h"
+#include "tests/support/coverage.h"
 #include "tests/support/series.h"
 
 namespace vitrel {
@@ -26,39 +27,22 @@ double autoregressive_error(std::size_t n, double c) {
   return std::sqrt(sum / static_cast<double>(n));
 }
 
-/// How many of `trials` true means lie within one and within two of their errors.
-struct Coverage {
-  int trials = 0, within_one = 0, within_two = 0, without_error = 0;
-
-  void count(double deviation, double error) {
-    ++trials;
-    if (std::isnan(error)) ++without_error;
-    if (std::abs(deviation) < error) ++within_one;
-    if (std::abs(deviation) < 2 * error) ++within_two;
-  }
-};
-
-/// Binomial count within 3 standard deviations: false-alarm rate 0.3 %.
-void expect_binomial(int count, int trials, double p) {
-  EXPECT_NEAR(count, trials * p, 3 * std::sqrt(trials * p * (1 - p)));
-}
-
-class BlockingCoverage : public testing::TestWithParam<double> {};
-
 // One error covers 68.27 % by construction (Student's factor); two cover 95.4 % of a normal
-// variable and 94.3 % with the fewest blocks met here (15).
-TEST_P(BlockingCoverage, ErrorsCoverTheTrueMean) {
-  Coverage coverage;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    const Estimate estimate = block_average(series_of(4096, GetParam(), seed));
-    coverage.count(estimate.mean, estimate.error);
+// variable and 94.3 % with the fewest blocks met here (15). Three standard deviations: false-alarm
+// rate 0.3 %.
+TEST(Blocking, ErrorsCoverTheTrueMean) {
+  for (const double c : {0.0, 0.5, 0.9}) {
+    SCOPED_TRACE(c);
+    Coverage coverage;
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      const Estimate estimate = block_average(series_of(4096, c, seed));
+      coverage.count(estimate.mean, estimate.error);
+    }
+    EXPECT_EQ(coverage.known, 100);
+    expect_binomial(coverage.one, 100, 0.6827, 3);
+    expect_binomial(coverage.two, 100, 0.95, 3);
   }
-  EXPECT_EQ(coverage.without_error, 0);
-  expect_binomial(coverage.within_one, coverage.trials, 0.6827);
-  expect_binomial(coverage.within_two, coverage.trials, 0.95);
 }
-
-INSTANTIATE_TEST_SUITE_P(Correlations, BlockingCoverage, testing::Values(0.0, 0.5, 0.9));
 
 // The error itself, averaged over the seeds, equals the exact one: its bias from the finite block
 // length is at most correlation time over block length, here 7 %, and its scatter over 400 seeds is
@@ -93,28 +77,28 @@ TEST(Blocking, ConstantSeriesHasErrorZero) {
   EXPECT_EQ(estimate.error, 0);
 }
 
-// 32 independent values: blocks of 4 are the first to pass B³ ≥ 2 n, and 8 of them are left.
-TEST(Blocking, ErrorOfAShortSeriesByHand) {
+/// Eight blocks of four values with the means 0 … 7: their variance is 6, the error of the mean
+/// √(6/8).
+std::vector<double> eight_blocks(const std::vector<double>& offsets) {
   std::vector<double> series;
   for (int block = 0; block < 8; ++block)
-    for (const double offset : {-10.0, 10.0, -10.0, 10.0}) series.push_back(block + offset);
-  const Estimate estimate = block_average(series);
+    for (const double offset : offsets) series.push_back(block + offset);
+  return series;
+}
+
+void expect_eight_blocks(const Estimate& estimate, double mean) {
   EXPECT_EQ(estimate.blocks, 8u);
-  EXPECT_DOUBLE_EQ(estimate.mean, 3.5);
-  // Block means 0 … 7: variance 6, error √(6/8).
+  EXPECT_DOUBLE_EQ(estimate.mean, mean);
   EXPECT_NEAR(estimate.error, std::sqrt(0.75) * student_factor(7), 1e-14);
 }
 
-// Block means 0 … 7 and a rest of 2: the error as above, the mean of all 34 values.
-TEST(Blocking, KnownBlocksByHand) {
-  std::vector<double> series;
-  for (int block = 0; block < 8; ++block)
-    for (const double offset : {-9.0, -1.0, 1.0, 9.0}) series.push_back(block + offset);
+// 32 independent values: blocks of 4 are the first to pass B³ ≥ 2 n, and 8 of them are left. With
+// known blocks and a rest of 2, the error is the same, the mean that of all 34 values.
+TEST(Blocking, ErrorOfAShortSeriesByHand) {
+  expect_eight_blocks(block_average(eight_blocks({-10, 10, -10, 10})), 3.5);
+  std::vector<double> series = eight_blocks({-9, -1, 1, 9});
   series.insert(series.end(), {20.5, 20.5});
-  const Estimate estimate = known_block_average(series, 4);
-  EXPECT_EQ(estimate.blocks, 8u);
-  EXPECT_DOUBLE_EQ(estimate.mean, (112 + 41) / 34.0);
-  EXPECT_NEAR(estimate.error, std::sqrt(0.75) * student_factor(7), 1e-14);
+  expect_eight_blocks(known_block_average(series, 4), (112 + 41) / 34.0);
   EXPECT_TRUE(std::isnan(known_block_average(series, 5).error));
   EXPECT_EQ(known_block_average(series, 5).blocks, 0u);
 }
@@ -123,17 +107,17 @@ TEST(Blocking, KnownBlocksByHand) {
 // in the series itself: that makes errors a little small, and they cover the truth in 64 % of the runs
 // instead of 68 (measured, and three standard deviations about it).
 TEST(Blocking, SlowSeriesNeedNoPlateau) {
-  int covered = 0, without_plateau = 0, known = 0;
+  Coverage coverage;
+  int without_plateau = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const std::vector<double> series = series_of(600, 0.951, 2000 + seed);
     without_plateau += std::isnan(block_average(series).error);
     const Estimate estimate = slow_average(series);
-    known += !std::isnan(estimate.error);
-    covered += std::abs(estimate.mean) < estimate.error;
+    coverage.count(estimate.mean, estimate.error);
   }
   EXPECT_GE(without_plateau, 270);
-  EXPECT_GE(known, 250);
-  expect_binomial(covered, known, 0.64);
+  EXPECT_GE(coverage.known, 250);
+  expect_binomial(coverage.one, coverage.known, 0.64, 3);
 }
 
 // c^k = 1/e at k = 1/ln(1/c).

@@ -6,21 +6,16 @@
 
 #include "analysis/dynamics/displacement.h"
 #include "analysis/structure/voronoi.h"
+#include "tests/support/frames.h"
 #include "tests/support/free_brownian.h"
+#include "tests/support/random_gas.h"
 
 namespace vitrel {
 namespace {
 
 /// Disks that start anywhere.
 Configuration2 gas(std::size_t n, std::uint64_t seed) {
-  Stream draw(seed, Purpose::tests);
-  Configuration2 c = ellipses(n);
-  c.box = PeriodicBox<2>(Vec2(12, 10));
-  for (std::size_t i = 0; i < n; ++i) {
-    c.shape[i] = {1, 1};
-    c.position[i] = Vec2{draw.uniform(-6, 6), draw.uniform(-5, 5)};
-  }
-  return c;
+  return random_gas<2>(n, {12, 10}, seed);
 }
 
 Vec2 moved(const Configuration2& from, const Configuration2& to, std::size_t i) {
@@ -75,18 +70,15 @@ TEST(CageRelative, IndependentParticlesFollowTheClosedForm) {
 // A wave as long as the box moves particles far, but neighbours together.
 TEST(CageRelative, LongWavesDoNotMatter) {
   const Configuration2 start = gas(2000, 5);
-  std::vector<Configuration2> frames;
-  for (int k = 0; k < 40; ++k) {
-    Configuration2 c = start;
-    c.time = k;
+  MemoryTrajectory2 trajectory = trajectory_of(40, start, [&](Configuration2& c, std::size_t k) {
+    c = start;
+    c.time = static_cast<double>(k);
     for (std::size_t i = 0; i < c.size(); ++i) {
       const double phase = 2 * M_PI * start.position[i].x() / 12;
-      c.position[i] += Vec2(0, 2 * std::sin(phase) * std::sin(0.3 * k) + k);
+      c.position[i] += Vec2(0, 2 * std::sin(phase) * std::sin(0.3 * c.time) + c.time);
       c.box.wrap(c.position[i], c.image[i]);
     }
-    frames.push_back(c);
-  }
-  MemoryTrajectory2 trajectory(std::move(frames));
+  });
   const CageRelative found = *cage_relative(trajectory);
   const Displacements usual = displacements(trajectory);
   // Neighbours are some 0.25 apart in x: the wave differs by 2π/12 · 0.25 of its height, squared and averaged

@@ -9,10 +9,15 @@
 #include <set>
 
 #include "core/error.h"
+#include "tests/support/coverage.h"
+#include "tests/support/frames.h"
 #include "tests/support/free_brownian.h"
+#include "tests/support/walking_solids.h"
 
 namespace vitrel {
 namespace {
+
+using std::numbers::pi;
 
 /// An ideal gas: n ellipses at random places.
 Configuration2 ideal_gas(std::size_t n, std::uint64_t seed) {
@@ -27,11 +32,11 @@ Configuration2 ideal_gas(std::size_t n, std::uint64_t seed) {
 template <std::size_t N, int Dim = static_cast<int>(N)>
 Vec<Dim> wave_vector(const std::array<int, N>& n, const PeriodicBox<Dim>& box) {
   const Eigen::Map<const Eigen::Vector<int, Dim>> steps(n.data());
-  return 2 * std::numbers::pi * steps.template cast<double>().cwiseQuotient(box.lengths());
+  return 2 * pi * steps.template cast<double>().cwiseQuotient(box.lengths());
 }
 
 TEST(WaveVectorShell, HasTheNearestVectorsOfTheBoxOnceEach) {
-  const PeriodicBox<2> box(Vec2(2 * std::numbers::pi, 4 * std::numbers::pi));  // steps 1 and 1/2
+  const PeriodicBox<2> box(Vec2(2 * pi, 4 * pi));  // steps 1 and 1/2
   const WaveVectorShell<2> smallest = wave_vector_shell(box, 0.6);
   ASSERT_EQ(smallest.n.size(), 1u);
   EXPECT_EQ(smallest.n[0], (std::array<int, 2>{0, 1}));
@@ -45,10 +50,19 @@ TEST(WaveVectorShell, HasTheNearestVectorsOfTheBoxOnceEach) {
   EXPECT_THROW(wave_vector_shell(box, 0.2), UserError);
 }
 
+TEST(WaveVectorShell, HasTheNearestVectorsOfABoxInSpaceOnceEach) {
+  const PeriodicBox<3> box(2 * pi * Vec3(1, 1, 0.5));  // steps 1, 1 and 2
+  // Within 1/2 of 1: (1, 0, 0), (0, 1, 0) and (1, ±1, 0) with √2.
+  const WaveVectorShell<3> shell = wave_vector_shell(box, 1);
+  ASSERT_EQ(shell.n.size(), 4u);
+  EXPECT_NEAR(shell.wave_number, (2 + 2 * std::sqrt(2.0)) / 4, 1e-15);
+  EXPECT_EQ(wave_vector_shell(box, 20).n.size(), 32u);
+}
+
 /// The lengths of the vectors of a shell from all vectors with components up to `order` steps.
 template <int Dim>
 std::vector<double> nearest_lengths(const PeriodicBox<Dim>& box, double wave_number, int order) {
-  const double reach = std::numbers::pi / box.lengths().maxCoeff();
+  const double reach = pi / box.lengths().maxCoeff();
   std::vector<double> lengths;
   std::array<int, Dim> n;
   n.fill(-order);
@@ -86,38 +100,58 @@ TEST(WaveVectorShell, HasTheNearestOfAllVectors) {
 
 // 400 particles at φ = 5 × 10⁻⁸ in the plane, 5 × 10⁻⁶ in space, and the wave number of a liquid: inside of the
 // shells are 7 × 10⁹ and 5 × 10⁷ vectors.
-TEST(WaveVectorShell, OfADiluteGasHasAsManyVectorsAsOthers) {
-  const WaveVectorShell<2> plane = wave_vector_shell(PeriodicBox<2>(Vec2(158'533, 158'533)), 2.7);
-  EXPECT_EQ(plane.n.size(), 32u);
-  EXPECT_NEAR(plane.wave_number, 2.7, std::numbers::pi / 158'533);
-  const WaveVectorShell<3> space = wave_vector_shell(PeriodicBox<3>(Vec3::Constant(694)), 2.7);
-  EXPECT_EQ(space.n.size(), 32u);
-  EXPECT_NEAR(space.wave_number, 2.7, std::numbers::pi / 694);
+template <int Dim>
+void expect_dilute(double side) {
+  const PeriodicBox<Dim> box(Vec<Dim>::Constant(side));
+  const WaveVectorShell<Dim> shell = wave_vector_shell(box, 2.7);
+  EXPECT_EQ(shell.n.size(), 32u);
+  EXPECT_NEAR(shell.wave_number, 2.7, pi / side);
 }
 
-// S(q) from the sum over all particles, frame by frame, with the same vectors.
-TEST(CollectiveScattering, BeginsAtTheStructureFactor) {
-  MemoryTrajectory2 trajectory = free_brownian(ideal_gas(70, 1), 11, 1);
-  const std::vector<double> wave_numbers{0.6, 5};
+TEST(WaveVectorShell, OfADiluteGasHasAsManyVectorsAsOthers) {
+  expect_dilute<2>(158'533);
+  expect_dilute<3>(694);
+}
+
+/// ρ(q) of a frame.
+template <int Dim>
+std::complex<double> density_mode(const Configuration<Dim>& frame, const Vec<Dim>& q) {
+  std::complex<double> rho = 0;
+  for (const Vec<Dim>& r : frame.position) rho += std::polar(1.0, q.dot(r));
+  return rho;
+}
+
+/// F(q, t) from the sum over all particles and origins, with the same wave vectors; S(q) at first.
+template <int Dim>
+void expect_loop(MemoryTrajectory<Dim>& trajectory, const std::vector<double>& wave_numbers,
+                 double tolerance) {
   const CollectiveScattering found = collective_scattering(trajectory, wave_numbers);
-  ASSERT_EQ(found.modes.size(), 2u);
+  const PeriodicBox<Dim> box = trajectory.read(0).box;
+  const auto n = static_cast<double>(trajectory.read(0).size());
+  ASSERT_EQ(found.modes.size(), wave_numbers.size());
   EXPECT_EQ(found.lag[0], 0);
-  EXPECT_EQ(found.origins[0], 11u);
-  for (std::size_t s = 0; s < 2; ++s) {
-    const auto shell = wave_vector_shell(trajectory.read(0).box, wave_numbers[s]);
-    double sum = 0;
-    for (std::size_t k = 0; k < 11; ++k) {
-      const Configuration2& frame = trajectory.read(k);
-      for (const auto& n : shell.n) {
-        std::complex<double> rho = 0;
-        for (const Vec2& r : frame.position)
-          rho += std::polar(1.0, wave_vector(n, frame.box).dot(r));
-        sum += std::norm(rho);
-      }
+  EXPECT_EQ(found.origins[0], trajectory.frames());
+  for (std::size_t s = 0; s < wave_numbers.size(); ++s) {
+    const auto shell = wave_vector_shell(box, wave_numbers[s]);
+    EXPECT_EQ(found.modes[s], shell.n.size());
+    for (const std::size_t lag : {0, 1, 4}) {
+      double sum = 0, count = 0;
+      for (const auto& steps : shell.n)
+        for (std::size_t k = 0; k + lag < trajectory.frames(); ++k, ++count) {
+          const Vec<Dim> q = wave_vector(steps, box);
+          sum += std::real(std::conj(density_mode(trajectory.read(k), q)) *
+                           density_mode(trajectory.read(k + lag), q));
+        }
+      EXPECT_NEAR(found.scattering[s].value[lag], sum / (n * count), tolerance) << lag;
     }
-    const double expected = sum / (11.0 * 70 * static_cast<double>(shell.n.size()));
-    EXPECT_NEAR(found.scattering[s].value[0], expected, 1e-12);
   }
+}
+
+TEST(CollectiveScattering, IsThatOfALoop) {
+  MemoryTrajectory2 plane = free_brownian(ideal_gas(70, 1), 11, 1);
+  expect_loop(plane, {0.6, 5}, 1e-12);
+  MemoryTrajectory3 space = walkers(20, 12, Vec3(1, 1, 1), 0.1, 6);
+  expect_loop(space, {2.5}, 1e-11);
 }
 
 /// F of an ideal gas is F_s: ⟨exp(−q² v/2)⟩ over the shell, v the variance of displacements per axis.
@@ -133,7 +167,7 @@ double ideal_scattering(const WaveVectorShell<2>& shell, const PeriodicBox<2>& b
 TEST(CollectiveScattering, ErrorBarsCoverTheIdealGas) {
   const std::vector<double> wave_numbers{2, 4};
   const std::size_t lags[] = {0, 1, 5, 20, 50};
-  int one[2][5] = {}, two[2][5] = {};
+  Coverage coverage[2][5];
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     MemoryTrajectory2 trajectory = free_brownian(ideal_gas(50, seed), 1001, 500 + seed);
     const CollectiveScattering found = collective_scattering(trajectory, wave_numbers);
@@ -142,15 +176,15 @@ TEST(CollectiveScattering, ErrorBarsCoverTheIdealGas) {
       for (std::size_t l = 0; l < 5; ++l) {
         const double truth =
             ideal_scattering(wave_vector_shell(box, wave_numbers[s]), box, brownian_step * lags[l]);
-        const double away = std::abs(found.scattering[s].value[lags[l]] - truth);
-        one[s][l] += away < found.scattering[s].error[lags[l]];
-        two[s][l] += away < 2 * found.scattering[s].error[lags[l]];
+        const Correlation& scattering = found.scattering[s];
+        coverage[s][l].count(scattering.value[lags[l]] - truth, scattering.error[lags[l]]);
       }
   }
   for (std::size_t s = 0; s < 2; ++s)
     for (std::size_t l = 0; l < 5; ++l) {
-      EXPECT_NEAR(one[s][l], 68.27, 3.5 * 4.65) << "q " << wave_numbers[s] << " lag " << lags[l];
-      EXPECT_NEAR(two[s][l], 95, 3.5 * 2.2) << "q " << wave_numbers[s] << " lag " << lags[l];
+      SCOPED_TRACE(testing::Message() << "q " << wave_numbers[s] << " lag " << lags[l]);
+      expect_binomial(coverage[s][l].one, 100, 0.6827, 3.5);
+      expect_binomial(coverage[s][l].two, 100, 0.95, 3.5);
     }
 }
 
@@ -164,15 +198,11 @@ TEST(CollectiveScattering, ResultDoesNotDependOnTheNumberOfThreads) {
 
 // Too few origins for blocks: the error is the spread of the wave vectors. Time 0 is that of all frames.
 TEST(CollectiveScattering, LogarithmicTimesUseAllPairsOfEqualDifference) {
-  Configuration2 configuration = ideal_gas(50, 4);
-  std::vector<Configuration2> frames;
-  for (const double time : {0.0, 1.0, 2.0, 4.0}) {
-    frames.push_back(configuration);
-    frames.back().time = time;
-  }
-  MemoryTrajectory2 trajectory(std::move(frames));
+  const double times[] = {0, 1, 2, 4};
+  MemoryTrajectory2 trajectory = trajectory_of(
+      4, ideal_gas(50, 4), [&](Configuration2& c, std::size_t k) { c.time = times[k]; });
   const auto found = collective_scattering(trajectory, std::vector<double>{3.0});
-  EXPECT_EQ(found.lag, (std::vector<double>{0, 1, 2, 4}));
+  EXPECT_EQ(found.lag, std::vector<double>(std::begin(times), std::end(times)));
   EXPECT_EQ(found.origins, (std::vector<std::size_t>{4, 2, 2, 1}));
   EXPECT_EQ(found.scattering[0].value[3], found.scattering[0].value[0]) << "nothing has moved";
   EXPECT_GT(found.scattering[0].error[0], 0);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <set>
 
@@ -81,6 +83,7 @@ struct Scene {
 template <int Dim>
 void expect_direct_sum_within_bound(const Scene<Dim>& scene) {
   const auto& [lengths, from, to] = scene;
+  SCOPED_TRACE(lengths.transpose());
   Stream draw(3, Purpose::tests);
   std::vector<Vec<Dim>> positions;
   std::vector<Weights> fields(2);
@@ -108,57 +111,48 @@ void expect_direct_sum_within_bound(const Scene<Dim>& scene) {
   EXPECT_GT(largest, 0.1 * alias_tolerance / std::sqrt(150.0));
 }
 
-class DensityGridOfAGas : public testing::TestWithParam<Scene<2>> {};
-TEST_P(DensityGridOfAGas, AgreesWithTheDirectSumWithinTheBound) {
-  expect_direct_sum_within_bound(GetParam());
+TEST(DensityGrid, AgreesWithTheDirectSumWithinTheBound) {
+  const Scene<2> plane[] = {
+      {{30, 30}, 0, 5}, {{7, 90}, 0, 4}, {{90, 7}, 2, 4}, {{2.5, 3}, 0, 9}, {{0.3, 40}, 0, 5}};
+  for (const Scene<2>& scene : plane) expect_direct_sum_within_bound(scene);
+  const Scene<3> space[] = {{{10, 10, 10}, 0, 5},
+                            {{3, 12, 17}, 0, 4},
+                            {{17, 12, 3}, 2, 4},
+                            {{2.5, 3, 3}, 0, 9},
+                            {{9, 0.3, 14}, 0, 4}};
+  for (const Scene<3>& scene : space) expect_direct_sum_within_bound(scene);
 }
-INSTANTIATE_TEST_SUITE_P(Boxes, DensityGridOfAGas,
-                         testing::Values(Scene<2>{{30, 30}, 0, 5}, Scene<2>{{7, 90}, 0, 4},
-                                         Scene<2>{{90, 7}, 2, 4}, Scene<2>{{2.5, 3}, 0, 9},
-                                         Scene<2>{{0.3, 40}, 0, 5}));
 
-class DensityGridOfASolidGas : public testing::TestWithParam<Scene<3>> {};
-TEST_P(DensityGridOfASolidGas, AgreesWithTheDirectSumWithinTheBound) {
-  expect_direct_sum_within_bound(GetParam());
+/// Of every two opposite wave vectors with these wave numbers one is listed; returns how many there
+/// are.
+template <int Dim>
+double expect_one_of_each(const Vec<Dim>& lengths, double from, double to) {
+  const DensityGrid<Dim> grid(lengths, from, to);
+  std::set<std::array<int, Dim>> met;
+  for (const WaveVector<Dim>& q : grid.wave_vectors()) {
+    const Eigen::Map<const Eigen::Vector<int, Dim>> n(q.n.data());
+    std::array<int, Dim> opposite;
+    std::ranges::transform(q.n, opposite.begin(), std::negate());
+    EXPECT_TRUE(met.insert(q.n).second);
+    EXPECT_FALSE(met.contains(opposite));
+    const double wave_number = 2 * pi * n.template cast<double>().cwiseQuotient(lengths).norm();
+    EXPECT_NEAR(q.wave_number, wave_number, 1e-12);
+    EXPECT_TRUE(q.wave_number >= from && q.wave_number < to);
+  }
+  return static_cast<double>(met.size());
 }
-INSTANTIATE_TEST_SUITE_P(Boxes, DensityGridOfASolidGas,
-                         testing::Values(Scene<3>{{10, 10, 10}, 0, 5}, Scene<3>{{3, 12, 17}, 0, 4},
-                                         Scene<3>{{17, 12, 3}, 2, 4}, Scene<3>{{2.5, 3, 3}, 0, 9},
-                                         Scene<3>{{9, 0.3, 14}, 0, 4}));
 
 // π (q_max² − q_min²) L_x L_y/(2π)² wave vectors, half of them listed; the number of lattice points
-// in an annulus is off by no more than the length of its edges.
+// in an annulus is off by no more than the length of its edges. In space 4π (q_max³ − q_min³)/3 ·
+// V/(2π)³; off by no more than half a cell of reciprocal space along the surfaces.
 TEST(DensityGrid, ListsOneOfEachTwoOppositeWaveVectors) {
-  const Vec2 lengths(50, 40);
-  const DensityGrid grid(lengths, 2, 5);
-  for (const WaveVector<2>& q : grid.wave_vectors()) {
+  for (const WaveVector<2>& q : DensityGrid<2>({50, 40}, 2, 5).wave_vectors())
     EXPECT_TRUE(q.n[1] > 0 || (q.n[1] == 0 && q.n[0] > 0));
-    EXPECT_NEAR(q.wave_number, 2 * pi * std::hypot(q.n[0] / lengths.x(), q.n[1] / lengths.y()),
-                1e-12);
-    EXPECT_TRUE(q.wave_number >= 2 && q.wave_number < 5);
-  }
-  const double area = lengths.prod() / (4 * pi * pi);
-  EXPECT_NEAR(static_cast<double>(grid.wave_vectors().size()), 0.5 * pi * (25 - 4) * area,
+  const double area = 50 * 40 / (4 * pi * pi), volume = 14 * 10 * 12 / std::pow(2 * pi, 3);
+  EXPECT_NEAR(expect_one_of_each<2>({50, 40}, 2, 5), 0.5 * pi * (25 - 4) * area,
               0.5 * 2 * pi * (5 + 2) * std::sqrt(area));
-}
-
-// 4π (q_max³ − q_min³)/3 · V/(2π)³ of them, half of them listed; off by no more than half a cell of
-// reciprocal space along the surfaces.
-TEST(DensityGrid, ListsOneOfEachTwoOppositeWaveVectorsInThreeDimensions) {
-  const Vec3 lengths(14, 10, 12);
-  const DensityGrid<3> grid(lengths, 2, 4);
-  std::set<std::array<int, 3>> met;
-  for (const WaveVector<3>& q : grid.wave_vectors()) {
-    const auto& [x, y, z] = q.n;
-    EXPECT_TRUE(met.insert(q.n).second);
-    EXPECT_FALSE(met.contains({-x, -y, -z}));
-    EXPECT_NEAR(q.wave_number,
-                2 * pi * std::hypot(x / lengths.x(), y / lengths.y(), z / lengths.z()), 1e-12);
-    EXPECT_TRUE(q.wave_number >= 2 && q.wave_number < 4);
-  }
-  const double density = lengths.prod() / std::pow(2 * pi, 3);
-  EXPECT_NEAR(static_cast<double>(met.size()), 0.5 * 4 * pi / 3 * (64 - 8) * density,
-              0.5 * 4 * pi * (16 + 4) * 0.5 * std::pow(density, 2.0 / 3));
+  EXPECT_NEAR(expect_one_of_each<3>({14, 10, 12}, 2, 4), 0.5 * 4 * pi / 3 * (64 - 8) * volume,
+              0.5 * 4 * pi * (16 + 4) * 0.5 * std::pow(volume, 2.0 / 3));
 }
 
 // ρ at three wave vectors of two points, by hand: L = 4, points at x = ±1 and y = 0, 1.

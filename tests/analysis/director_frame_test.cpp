@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "tests/support/frames.h"
 #include "tests/support/scenes.h"
 
 namespace vitrel {
@@ -13,21 +14,14 @@ constexpr double pi = std::numbers::pi;
 
 /// Three ellipses at −0.2, 0 and 0.2 from a director that turns by 0.7 per frame, and a disk.
 MemoryTrajectory2 turning_nematic() {
-  std::vector<Configuration2> frames;
-  for (int k = 0; k < 20; ++k) {
-    Configuration2 c;
-    c.resize(4);
-    c.time = k;
-    const double director = 0.3 + 0.7 * k;
-    for (int i = 0; i < 3; ++i) {
-      c.shape[i] = of_aspect_ratio(3);
-      c.angle[i] = director + 0.2 * (i - 1);
-    }
-    c.shape[3] = {1, 1};
-    c.position[1] = Vec2(0.5, k);
-    frames.push_back(c);
-  }
-  return MemoryTrajectory2(std::move(frames));
+  Configuration2 start;
+  start.resize(4);
+  for (int i = 0; i < 3; ++i) start.shape[i] = of_aspect_ratio(3);
+  return trajectory_of(20, start, [](Configuration2& c, std::size_t k) {
+    c.time = static_cast<double>(k);
+    for (int i = 0; i < 3; ++i) c.angle[i] = 0.3 + 0.7 * c.time + 0.2 * (i - 1);
+    c.position[1] = Vec2(0.5, c.time);
+  });
 }
 
 // The director is followed over more than four turns, so that angles beside it stand still.
@@ -48,8 +42,7 @@ TEST(DirectorFrame, TurnsOfParticlesStay) {
   Configuration2 last = trajectory.read(19);
   last.time = 20;
   last.angle[2] += 3 * pi;
-  std::vector<Configuration2> frames{trajectory.read(19), last};
-  MemoryTrajectory2 two(std::move(frames));
+  MemoryTrajectory2 two({trajectory.read(19), last});
   DirectorFrame<2> seen(two);
   EXPECT_NEAR(seen.read(1).angle[2] - seen.read(0).angle[2], 3 * pi, 1e-12);
 }

@@ -5,14 +5,17 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/dynamics/collective_scattering.h"
 #include "analysis/dynamics/director_frame.h"
 #include "analysis/structure/order.h"
 #include "analysis/structure/orientation_tensor.h"
+#include "tests/support/frames.h"
+#include "tests/support/particles_of.h"
 #include "tests/support/walking_solids.h"
 
 namespace vitrel {
 namespace {
+
+using std::numbers::pi;
 
 /// Mean over all origins and particles of value(particle, frame, frame `lag` later).
 template <class Value>
@@ -34,6 +37,13 @@ double turned(std::size_t i, const Configuration3& from, const Configuration3& t
   return (from.orientation[i] * Vec3::Unit(axis)).dot(to.orientation[i] * Vec3::Unit(axis));
 }
 
+/// The Legendre polynomials P_n of that cosine, in the mean.
+double slow_order(MemoryTrajectory3& trajectory, std::size_t lag, unsigned n, int axis) {
+  return slow_mean(trajectory, lag, [&](auto i, auto& from, auto& to) {
+    return std::legendre(n, std::clamp(turned(i, from, to, axis), -1.0, 1.0));
+  });
+}
+
 constexpr std::size_t lags[] = {1, 2, 7, 20};
 
 TEST(DisplacementOfSolids, TranslationIsThatOfALoopOverAllPairsOfFrames) {
@@ -47,17 +57,18 @@ TEST(DisplacementOfSolids, TranslationIsThatOfALoopOverAllPairsOfFrames) {
     const std::size_t l = lag - 1;
     ASSERT_NEAR(found.lag[l], 0.5 * static_cast<double>(lag), 1e-12);
     const auto mean = [&](auto&& value) { return slow_mean(trajectory, lag, value); };
-    const double square =
-        mean([](auto i, auto& from, auto& to) { return moved(i, from, to).squaredNorm(); });
-    const double quartic = mean(
-        [](auto i, auto& from, auto& to) { return std::pow(moved(i, from, to).squaredNorm(), 2); });
+    const auto power = [&](int exponent) {
+      return mean([=](auto i, auto& from, auto& to) {
+        return std::pow(moved(i, from, to).norm(), exponent);
+      });
+    };
+    const double square = power(2), quartic = power(4);
     EXPECT_NEAR(all.translation.value[l], square, 1e-12 * square);
     EXPECT_NEAR(all.quartic.value[l], quartic, 1e-12 * quartic);
     EXPECT_NEAR(all.non_gaussian.value[l], 3 * quartic / (5 * square * square) - 1, 1e-12);
     for (const std::size_t q : {0, 1}) {
       const double scattering = mean([&](auto i, auto& from, auto& to) {
-        const double x = found.wave_numbers[q] * moved(i, from, to).norm();
-        return std::sph_bessel(0, x);
+        return std::sph_bessel(0, found.wave_numbers[q] * moved(i, from, to).norm());
       });
       EXPECT_NEAR(all.self_scattering[q].value[l], scattering, 1e-12);
     }
@@ -85,8 +96,7 @@ TEST(DisplacementOfSolids, RotationOfSpheroidsIsThatOfALoop) {
   const DisplacementGroup& all = found.groups.front();
   for (const std::size_t lag : lags) {
     const std::size_t l = lag - 1;
-    const auto mean = [&](auto&& value) { return slow_mean(trajectory, lag, value); };
-    const double along = mean([](auto i, auto& from, auto& to) {
+    const double along = slow_mean(trajectory, lag, [](auto i, auto& from, auto& to) {
       return std::pow(moved(i, from, to).dot(from.orientation[i] * Vec3::UnitX()), 2);
     });
     EXPECT_NEAR(all.parallel.value[l], along, 1e-12 * along);
@@ -101,12 +111,8 @@ TEST(DisplacementOfSolids, RotationOfSpheroidsIsThatOfALoop) {
     EXPECT_NEAR(all.rotation.value[l], square, 1e-10);
     EXPECT_NEAR(all.quartic_rotation.value[l], quartic, 1e-9);
     EXPECT_NEAR(all.non_gaussian_rotation.value[l], 3 * quartic / (5 * square * square) - 1, 1e-9);
-    for (const unsigned n : {1u, 2u}) {
-      const double p = mean([&](auto i, auto& from, auto& to) {
-        return std::legendre(n, std::clamp(turned(i, from, to, 0), -1.0, 1.0));
-      });
-      EXPECT_NEAR(all.orientation[n - 1].value[l], p, 1e-12);
-    }
+    for (const unsigned n : {1u, 2u})
+      EXPECT_NEAR(all.orientation[n - 1].value[l], slow_order(trajectory, lag, n, 0), 1e-12);
   }
 }
 
@@ -120,9 +126,7 @@ TEST(DisplacementOfSolids, ScaleneBodiesHaveThreeAxes) {
   std::size_t next = 0;
   for (const int axis : {1, 0, 2})
     for (const unsigned n : {1u, 3u}) {
-      const double p = slow_mean(trajectory, 7, [&](auto i, auto& from, auto& to) {
-        return std::legendre(n, std::clamp(turned(i, from, to, axis), -1.0, 1.0));
-      });
+      const double p = slow_order(trajectory, 7, n, axis);
       EXPECT_NEAR(all.orientation[next++].value[6], p, 1e-12) << axis << ' ' << n;
     }
 }
@@ -150,64 +154,25 @@ TEST(DisplacementOfSolids, ResultDependsNeitherOnThreadsNorOnMemory) {
 
 // The first Bragg peak of the face-centred cubic lattice, |q| = 2π √3/a with four points in a³.
 TEST(MainWaveNumber, IsThatOfTheClosestPacking) {
-  Configuration3 c;
-  c.resize(32);
-  c.box = PeriodicBox<3>(Vec3(6, 3, 4));
+  const auto c = particles_of<3>(std::vector<Ellipsoid>(32), {6, 3, 4});
   const double a = std::cbrt(4 * c.box.volume() / 32);
-  EXPECT_NEAR(main_wave_number(c), 2 * std::numbers::pi * std::sqrt(3.0) / a, 1e-12);
-}
-
-TEST(WaveVectorShell, HasTheNearestVectorsOfABoxInSpaceOnceEach) {
-  const double unit = 2 * std::numbers::pi;
-  const PeriodicBox<3> box(Vec3(unit, unit, unit / 2));  // steps 1, 1 and 2
-  // Within 1/2 of 1: (1, 0, 0), (0, 1, 0) and (1, ±1, 0) with √2.
-  const WaveVectorShell<3> shell = wave_vector_shell(box, 1);
-  ASSERT_EQ(shell.n.size(), 4u);
-  EXPECT_NEAR(shell.wave_number, (2 + 2 * std::sqrt(2.0)) / 4, 1e-15);
-  EXPECT_EQ(wave_vector_shell(box, 20).n.size(), 32u);
-}
-
-// F(q, t) from the sum over all pairs of particles and origins, with the same wave vectors.
-TEST(CollectiveScattering, InSpaceIsThatOfALoop) {
-  MemoryTrajectory3 trajectory = walkers(20, 12, Vec3(1, 1, 1), 0.1, 6);
-  const std::vector<double> wave_numbers{2.5};
-  const CollectiveScattering found = collective_scattering(trajectory, wave_numbers);
-  const PeriodicBox<3> box = trajectory.read(0).box;
-  const WaveVectorShell<3> shell = wave_vector_shell(box, 2.5);
-  EXPECT_EQ(found.modes.front(), shell.n.size());
-  for (const std::size_t lag : {0u, 1u, 4u}) {
-    double sum = 0;
-    for (const auto& n : shell.n)
-      for (std::size_t k = 0; k + lag < 12; ++k) {
-        const Vec3 q = 2 * std::numbers::pi * Vec3(n[0], n[1], n[2]).cwiseQuotient(box.lengths());
-        const Configuration3 from = trajectory.read(k), to = trajectory.read(k + lag);
-        for (const Vec3& r : from.position)
-          for (const Vec3& s : to.position) sum += std::cos(q.dot(s - r));
-      }
-    sum /= static_cast<double>(20 * shell.n.size() * (12 - lag));
-    EXPECT_NEAR(found.scattering.front().value[lag], sum, 1e-11) << lag;
-  }
+  EXPECT_NEAR(main_wave_number(c), 2 * pi * std::sqrt(3.0) / a, 1e-12);
 }
 
 // Bodies at fixed orientations relative to a director that turns about changing axes.
 TEST(DirectorFrame, InSpaceFollowsTheDirector) {
-  std::vector<Configuration3> frames;
   Stream draw(7, Purpose::tests);
   Quaternion director = random_orientation(draw);
-  for (int k = 0; k < 30; ++k) {
-    Configuration3 c;
-    c.resize(8);
-    c.time = k;
+  const auto spheroids = particles_of<3>(std::vector<Ellipsoid>(8, {Vec3(1, 1, 3)}));
+  auto trajectory = trajectory_of(30, spheroids, [&](Configuration3& c, std::size_t k) {
+    c.time = static_cast<double>(k);
     for (int i = 0; i < 8; ++i) {
-      c.shape[i].semi_axes = Vec3(1, 1, 3);
-      const double azimuth = std::numbers::pi / 4 * i;
+      const double azimuth = pi / 4 * i;
       const Vec3 tilt_axis(std::cos(azimuth), std::sin(azimuth), 0);
       c.orientation[i] = director * Quaternion(Eigen::AngleAxisd(0.3, tilt_axis));
     }
-    frames.push_back(c);
     director = Quaternion(Eigen::AngleAxisd(0.7, random_direction(draw))) * director;
-  }
-  MemoryTrajectory3 trajectory(std::move(frames));
+  });
   DirectorFrame<3> seen(trajectory);
   const Vec3 first = orientation_tensor(seen.read(0)).director();
   for (std::size_t k = 0; k < 30; ++k) {
@@ -223,14 +188,10 @@ TEST(DirectorFrame, InSpaceFollowsTheDirector) {
 TEST(NematicOrder, ByChanceInSpace) {
   double sum = 0, squares = 0;
   constexpr int gases = 2000;
-  for (int gas = 0; gas < gases; ++gas) {
-    Stream draw(static_cast<std::uint64_t>(gas), Purpose::tests);
-    Configuration3 c;
-    c.resize(100);
-    for (std::size_t i = 0; i < 100; ++i) {
-      c.shape[i].semi_axes = Vec3(1, 1, 2);
-      c.orientation[i] = random_orientation(draw);
-    }
+  for (std::uint64_t gas = 0; gas < gases; ++gas) {
+    Stream draw(gas, Purpose::tests);
+    auto c = particles_of<3>(std::vector<Ellipsoid>(100, {Vec3(1, 1, 2)}));
+    for (Quaternion& q : c.orientation) q = random_orientation(draw);
     const double order = orientation_tensor(c).nematic_order();
     sum += order;
     squares += order * order;

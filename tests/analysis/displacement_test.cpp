@@ -9,10 +9,14 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "tests/support/coverage.h"
+#include "tests/support/frames.h"
 #include "tests/support/free_brownian.h"
 
 namespace vitrel {
 namespace {
+
+using std::numbers::pi;
 
 constexpr double overlap_distance = 0.3;
 
@@ -80,25 +84,22 @@ TEST(Displacement, FreeBrownianParticlesFollowTheClosedForms) {
   EXPECT_GT(result.lag.back(), 37);
 }
 
-/// A run whose angles are known up to whole turns, of every `step`-th frame.
-class UncountedTurns : public Trajectory2 {
+/// Every `step`-th frame of a run, with angles that are known up to whole turns.
+class UncountedTurns : public MemoryTrajectory2 {
  public:
-  UncountedTurns(MemoryTrajectory2& counted, std::size_t step) : counted_(counted), step_(step) {
-    for (std::size_t k = 0; k < counted.frames(); k += step) times_.push_back(counted.times()[k]);
-  }
-  const std::vector<double>& times() const override { return times_; }
-  const Configuration2& read(std::size_t k) override {
-    frame_ = counted_.read(k * step_);
-    for (double& angle : frame_.angle) angle = std::remainder(angle, 2 * std::numbers::pi);
-    return frame_;
-  }
-  double turn_period() const override { return 2 * std::numbers::pi; }
+  UncountedTurns(Trajectory2& counted, std::size_t step)
+      : MemoryTrajectory2(folded(counted, step)) {}
+  double turn_period() const override { return 2 * pi; }
 
  private:
-  MemoryTrajectory2& counted_;
-  std::size_t step_;
-  std::vector<double> times_;
-  Configuration2 frame_;
+  static std::vector<Configuration2> folded(Trajectory2& counted, std::size_t step) {
+    std::vector<Configuration2> frames;
+    for (std::size_t k = 0; k < counted.frames(); k += step) {
+      frames.push_back(counted.read(k));
+      for (double& angle : frames.back().angle) angle = std::remainder(angle, 2 * pi);
+    }
+    return frames;
+  }
 };
 
 // Turns from frame to frame are short, and then they are not.
@@ -117,16 +118,18 @@ TEST(Displacement, UncountedTurnsAreTheShortestOrUnknown) {
   EXPECT_FALSE(unknown.groups[0].orientation[0].value.empty());
 }
 
-/// Counts of truths within one and two errors over many runs.
-struct Coverage {
-  int runs = 0, one = 0, two = 0, blocked = 0;
+/// The coverage of many runs, and how many of their errors are from blocks.
+struct RunCoverage : Coverage {
+  int blocked = 0;
 
   void count(double deviation, double error, std::size_t blocks) {
-    if (std::isnan(error)) return;
-    ++runs;
-    one += std::abs(deviation) < error;
-    two += std::abs(deviation) < 2 * error;
-    blocked += blocks > 0;
+    Coverage::count(deviation, error);
+    blocked += !std::isnan(error) && blocks > 0;
+  }
+  void expect_covers() const {
+    EXPECT_GE(known, 99);
+    EXPECT_NEAR(100.0 * one / known, 68.27, 3.5 * 4.65);
+    EXPECT_NEAR(100.0 * two / known, 95, 3.5 * 2.2);
   }
 };
 
@@ -139,7 +142,7 @@ std::size_t lag_of(const Displacements& result, double steps) {
   return static_cast<std::size_t>(at - result.lag.begin());
 }
 
-using CoverageTable = std::map<std::pair<std::string, int>, Coverage>;
+using CoverageTable = std::map<std::pair<std::string, int>, RunCoverage>;
 
 using Sampling = std::function<MemoryTrajectory2(MemoryTrajectory2&)>;
 
@@ -166,36 +169,77 @@ CoverageTable coverage_of_free_runs(std::size_t length, const std::vector<int>& 
   return coverage;
 }
 
-// All pairs of frames that many steps apart, one after another.
+/// Sums over pairs of frames, one after another, of means over the particles.
+struct SlowSums {
+  double origins = 0, msd = 0, msr = 0, parallel = 0, scattering = 0, l_4 = 0;
+
+  void add(const Configuration2& then, const Configuration2& now) {
+    const auto n = static_cast<double>(now.size());
+    ++origins;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const Vec2 moved = now.unwrapped(i) - then.unwrapped(i);
+      const Vec2 axis(std::cos(then.angle[i]), std::sin(then.angle[i]));
+      const double turned = now.angle[i] - then.angle[i];
+      msd += moved.squaredNorm() / n;
+      msr += turned * turned / n;
+      parallel += std::pow(moved.dot(axis), 2) / n;
+      scattering += ::j0(4 * moved.norm()) / n;
+      l_4 += std::cos(4 * turned) / n;
+    }
+  }
+};
+
+/// At the l-th time difference, with 4 as the second wave number.
+void expect_slow_sums(const Displacements& found, std::size_t l, const SlowSums& slow) {
+  const DisplacementGroup& all = found.groups[0];
+  const double origins = slow.origins;
+  const double length = 1e-12 * std::min(slow.msd, all.translation.value.back());
+  const double angle = 1e-12 * std::min(slow.msr, all.rotation.value.back());
+  ASSERT_EQ(static_cast<double>(found.origins[l]), origins) << found.lag[l];
+  EXPECT_NEAR(all.translation.value[l], slow.msd / origins, length);
+  EXPECT_NEAR(all.rotation.value[l], slow.msr / origins, angle);
+  EXPECT_NEAR(all.parallel.value[l], slow.parallel / origins, length);
+  EXPECT_NEAR(all.self_scattering[1].value[l], slow.scattering / origins, 1e-9);
+  EXPECT_NEAR(all.orientation[1].value[l], slow.l_4 / origins, 1e-12);
+}
+
+// All pairs of frames that many steps apart.
 TEST(Displacement, UnevenTimesAreAveragedOverAllPairsOfEqualDifference) {
   MemoryTrajectory2 steps = free_brownian(ellipses(20), 161, 8);
   MemoryTrajectory2 trajectory = cycles(steps);
   const Displacements result = displacements(trajectory, two_wave_numbers());
   ASSERT_GT(result.lag.size(), 20u);
   for (std::size_t l = 0; l < result.lag.size(); ++l) {
-    double origins = 0, msd = 0, scattering = 0, l_4 = 0, parallel = 0;
+    SlowSums slow;
     for (std::size_t k = 0; k < trajectory.frames(); ++k)
       for (std::size_t m = k + 1; m < trajectory.frames(); ++m) {
-        const Configuration2 then = trajectory.read(k), now = trajectory.read(m);
-        if (std::lround((now.time - then.time) / brownian_step) !=
+        const Configuration2 &then = trajectory.read(k), &now = trajectory.read(m);
+        if (std::lround((now.time - then.time) / brownian_step) ==
             std::lround(result.lag[l] / brownian_step))
-          continue;
-        ++origins;
-        for (std::size_t i = 0; i < 20; ++i) {
-          const Vec2 moved = now.unwrapped(i) - then.unwrapped(i);
-          const Vec2 axis(std::cos(then.angle[i]), std::sin(then.angle[i]));
-          msd += moved.squaredNorm() / 20;
-          parallel += moved.dot(axis) * moved.dot(axis) / 20;
-          scattering += std::cyl_bessel_j(0.0, 4 * moved.norm()) / 20;
-          l_4 += std::cos(4 * (now.angle[i] - then.angle[i])) / 20;
-        }
+          slow.add(then, now);
       }
-    const DisplacementGroup& all = result.groups[0];
-    ASSERT_EQ(static_cast<double>(result.origins[l]), origins) << result.lag[l];
-    EXPECT_NEAR(all.translation.value[l], msd / origins, 1e-12 * msd);
-    EXPECT_NEAR(all.parallel.value[l], parallel / origins, 1e-12 * msd);
-    EXPECT_NEAR(all.self_scattering[1].value[l], scattering / origins, 1e-9);
-    EXPECT_NEAR(all.orientation[1].value[l], l_4 / origins, 1e-12);
+    expect_slow_sums(result, l, slow);
+  }
+}
+
+// Thinned origins are every so many frames, which lie apart in the path; without thinning all
+// frames are origins.
+TEST(Displacement, EqualsTheSlowSumsAtEveryLag) {
+  struct Run {
+    std::size_t particles, frames, seed, max_origins, stride;
+  };
+  for (const Run& run : {Run{5, 400, 1, 400, 1}, Run{3, 100, 2, 15, 7}}) {
+    MemoryTrajectory2 trajectory = free_brownian(ellipses(run.particles), run.frames, run.seed);
+    DisplacementOptions options = two_wave_numbers();
+    options.axis = {.every_lag_up_to = run.frames, .max_origins = run.max_origins};
+    const Displacements found = displacements(trajectory, options);
+    for (std::size_t l = 0; l < found.lag.size(); ++l) {
+      SlowSums slow;
+      const auto lag = static_cast<std::size_t>(std::lround(found.lag[l] / found.lag[0]));
+      for (std::size_t k = 0; k + lag < run.frames; k += run.stride)
+        slow.add(trajectory.read(k), trajectory.read(k + lag));
+      expect_slow_sums(found, l, slow);
+    }
   }
 }
 
@@ -204,17 +248,15 @@ TEST(Displacement, UnevenTimesAreAveragedOverAllPairsOfEqualDifference) {
 // by blocking, longer ones by particles, but for correlations that decay, which have blocks of their own memory.
 TEST(Displacement, ErrorBarsCoverTheClosedForms) {
   for (const auto& [what, counts] : coverage_of_free_runs(1000, {1, 5, 10, 100})) {
-    const std::string where = fmt::format("{} at {}", what.first, what.second);
+    SCOPED_TRACE(fmt::format("{} at {}", what.first, what.second));
     const bool by_blocks = what.second <= 10;
     if (what.first == "chi_4" && !by_blocks) {
-      EXPECT_EQ(counts.runs, 0);
+      EXPECT_EQ(counts.known, 0);
       continue;
     }
-    EXPECT_GE(counts.runs, 99) << where;
-    EXPECT_NEAR(100.0 * counts.one / counts.runs, 68.27, 3.5 * 4.65) << where;
-    EXPECT_NEAR(100.0 * counts.two / counts.runs, 95, 3.5 * 2.2) << where;
+    counts.expect_covers();
     const bool decays = what.first.starts_with("F_s") || what.first.starts_with("L_");
-    EXPECT_EQ(counts.blocked > 50, by_blocks || decays) << where;
+    EXPECT_EQ(counts.blocked > 50, by_blocks || decays);
   }
 }
 
@@ -222,43 +264,17 @@ TEST(Displacement, ErrorBarsCoverTheClosedForms) {
 // four lags.
 TEST(Displacement, ErrorBarsOfUnevenOriginsCoverTheClosedForms) {
   for (const auto& [what, counts] : coverage_of_free_runs(2400, {1, 5, 20}, cycles)) {
-    const std::string where = fmt::format("{} at {}", what.first, what.second);
-    EXPECT_GE(counts.runs, 99) << where;
-    EXPECT_NEAR(100.0 * counts.one / counts.runs, 68.27, 3.5 * 4.65) << where;
-    EXPECT_NEAR(100.0 * counts.two / counts.runs, 95, 3.5 * 2.2) << where;
-    EXPECT_GT(counts.blocked, 50) << where;
+    SCOPED_TRACE(fmt::format("{} at {}", what.first, what.second));
+    counts.expect_covers();
+    EXPECT_GT(counts.blocked, 50);
   }
 }
 
-double mean_square_change(const std::vector<double>& x, std::size_t lag) {
-  double sum = 0;
-  for (std::size_t k = 0; k + lag < x.size(); ++k) sum += (x[k + lag] - x[k]) * (x[k + lag] - x[k]);
-  return sum / static_cast<double>(x.size() - lag);
-}
-
-// x and y of all particles together, each summed directly over all origins, give what the pass over the frames does.
-TEST(Displacement, EqualsTheDirectSumsAtEveryLag) {
-  constexpr std::size_t frames = 400, particles = 5;
-  MemoryTrajectory2 trajectory = free_brownian(ellipses(particles), frames, 1);
-  const Displacements found = displacements(trajectory, {.axis = {.every_lag_up_to = frames}});
-  std::vector<double> msd(frames), msr(frames);
-  for (std::size_t i = 0; i < particles; ++i) {
-    std::vector<double> x, y, angle;
-    for (std::size_t k = 0; k < frames; ++k) {
-      const Configuration2& frame = trajectory.read(k);
-      x.push_back(frame.unwrapped(i).x());
-      y.push_back(frame.unwrapped(i).y());
-      angle.push_back(frame.angle[i]);
-    }
-    for (std::size_t n = 0; n < frames; ++n) {
-      msd[n] += (mean_square_change(x, n) + mean_square_change(y, n)) / particles;
-      msr[n] += mean_square_change(angle, n) / particles;
-    }
-  }
-  for (std::size_t l = 0; l < found.lag.size(); ++l) {
-    EXPECT_NEAR(found.groups[0].translation.value[l], msd[l + 1], 1e-12 * msd.back());
-    EXPECT_NEAR(found.groups[0].rotation.value[l], msr[l + 1], 1e-12 * msr.back());
-  }
+/// Frames of a free flight, one interval apart.
+MemoryTrajectory2 flight(const Configuration2& start, std::size_t frames, double interval) {
+  return trajectory_of(frames, start, [&](Configuration2& c, std::size_t k) {
+    if (k > 0) fly(c, interval);
+  });
 }
 
 // r = v t and θ = ω t: every origin gives the same square, through any number of box crossings.
@@ -266,10 +282,8 @@ TEST(Displacement, BallisticMotionIsExactAndWrappingImmaterial) {
   Configuration2 configuration = ellipses(3);
   configuration.velocity = {Vec2(1, 2), Vec2(-3, 0.5), Vec2(0, 0)};
   configuration.angular_velocity = {2, -7, 0.5};
-  std::vector<Configuration2> frames;
-  for (int k = 0; k <= 60; ++k, fly(configuration, 0.25)) frames.push_back(configuration);
-  ASSERT_NE(frames.back().image[1], Shift<2>(Shift<2>::Zero()));
-  MemoryTrajectory2 trajectory(std::move(frames));
+  MemoryTrajectory2 trajectory = flight(configuration, 61, 0.25);
+  ASSERT_NE(trajectory.read(60).image[1], Shift<2>(Shift<2>::Zero()));
   const Displacements result = displacements(trajectory);
   ASSERT_EQ(result.lag.size(), 30u);
   const double v2 = (5 + 9.25) / 3, w2 = (4 + 49 + 0.25) / 3;
@@ -285,12 +299,10 @@ TEST(Displacement, BallisticMotionIsExactAndWrappingImmaterial) {
 TEST(Displacement, LogarithmicTimesUseAllPairsOfEqualDifference) {
   Configuration2 configuration = ellipses(4);
   for (int i = 0; i < 4; ++i) configuration.velocity[i] = Vec2(1 + i, 0);
-  std::vector<Configuration2> frames{configuration};
-  for (double t = 0.125; t < 10; t *= 2) {
-    fly(configuration, t - configuration.time);
-    frames.push_back(configuration);
-  }
-  MemoryTrajectory2 trajectory(std::move(frames));
+  MemoryTrajectory2 trajectory =
+      trajectory_of(8, configuration, [](Configuration2& c, std::size_t k) {
+        if (k > 0) fly(c, std::max(0.125, c.time));
+      });
   const Displacements result = displacements(trajectory);
   ASSERT_EQ(result.lag.size(), 7u);
   // Squares t² {1, 4, 9, 16}: mean 7.5 t², variance 43 t⁴, and four particles behind the error.
@@ -304,53 +316,41 @@ TEST(Displacement, LogarithmicTimesUseAllPairsOfEqualDifference) {
   }
 }
 
-Configuration2 mixture_of_ellipses_and_disks() {
+TEST(Displacement, SpeciesApartAndRoundParticlesDoNotTurn) {
   Configuration2 configuration = ellipses(3);
   configuration.species_names = {"ellipse", "disk", "absent"};
   configuration.shape[2] = {1.4, 1.4};
   configuration.species = {0, 0, 1};
   configuration.velocity = {Vec2(1, 0), Vec2(2, 0), Vec2(3, 0)};
   configuration.angular_velocity = {1, 2, 100};
-  return configuration;
-}
-
-TEST(Displacement, SpeciesApartAndRoundParticlesDoNotTurn) {
-  Configuration2 configuration = mixture_of_ellipses_and_disks();
-  std::vector<Configuration2> frames;
-  for (int k = 0; k <= 4; ++k, fly(configuration, 1)) frames.push_back(configuration);
-  MemoryTrajectory2 trajectory(std::move(frames));
-  const Displacements result = displacements(trajectory);
-  ASSERT_EQ(result.groups.size(), 3u);
-  EXPECT_EQ(result.groups[0].name, "all");
-  EXPECT_EQ(result.groups[1].name, "ellipse");
-  EXPECT_EQ(result.groups[2].name, "disk");
-  EXPECT_NEAR(result.groups[0].translation.value[0], 14.0 / 3, 1e-13);
-  EXPECT_NEAR(result.groups[1].translation.value[0], 2.5, 1e-13);
-  EXPECT_NEAR(result.groups[2].translation.value[0], 9, 1e-13);
-  EXPECT_NEAR(result.groups[0].rotation.value[0], 2.5, 1e-13);
-  EXPECT_NEAR(result.groups[1].rotation.value[0], 2.5, 1e-13);
-  EXPECT_EQ(result.groups[0].rotors, 2u);
-  EXPECT_TRUE(result.groups[2].rotation.value.empty());
-}
-
-TEST(Displacement, ResultDoesNotDependOnTheMemoryGranted) {
-  MemoryTrajectory2 trajectory = free_brownian(ellipses(7), 60, 3);
-  const Displacements whole = displacements(trajectory);
-  const Displacements single = displacements(trajectory, {.memory = 1});
-  EXPECT_EQ(whole.groups[0].translation.value, single.groups[0].translation.value);
-  EXPECT_EQ(whole.groups[0].translation.error, single.groups[0].translation.error);
-  EXPECT_EQ(whole.groups[0].rotation.value, single.groups[0].rotation.value);
+  MemoryTrajectory2 trajectory = flight(configuration, 5, 1);
+  const std::vector<DisplacementGroup> groups = displacements(trajectory).groups;
+  ASSERT_EQ(groups.size(), 3u);
+  const std::pair<const char*, double> expected[] = {
+      {"all", 14.0 / 3}, {"ellipse", 2.5}, {"disk", 9}};
+  for (std::size_t g = 0; g < 3; ++g) {
+    EXPECT_EQ(groups[g].name, expected[g].first);
+    EXPECT_NEAR(groups[g].translation.value[0], expected[g].second, 1e-13);
+  }
+  for (const std::size_t g : {0, 1}) EXPECT_NEAR(groups[g].rotation.value[0], 2.5, 1e-13);
+  EXPECT_EQ(groups[0].rotors, 2u);
+  EXPECT_TRUE(groups[2].rotation.value.empty());
 }
 
 // Every sum is over the same numbers in the same order.
-TEST(Displacement, ResultDoesNotDependOnTheNumberOfThreads) {
+TEST(Displacement, ResultDependsNeitherOnThreadsNorOnTheMemoryGranted) {
   MemoryTrajectory2 trajectory = free_brownian(ellipses(40), 300, 5);
   const Displacements one = displacements(trajectory, {.threads = 1});
-  const Displacements two = displacements(trajectory, {.threads = 2});
-  const auto judge_one = judged(one, 1, 1), judge_two = judged(two, 1, 1);
-  for (std::size_t j = 0; j < judge_one.size(); ++j) {
-    EXPECT_EQ(judge_one[j].found->value[0], judge_two[j].found->value[0]) << judge_one[j].name;
-    EXPECT_EQ(judge_one[j].found->error[0], judge_two[j].found->error[0]) << judge_one[j].name;
+  for (const DisplacementOptions& options : {DisplacementOptions{.threads = 2}, {.memory = 1}}) {
+    const Displacements other = displacements(trajectory, options);
+    EXPECT_EQ(one.groups[0].translation.value, other.groups[0].translation.value);
+    EXPECT_EQ(one.groups[0].translation.error, other.groups[0].translation.error);
+    EXPECT_EQ(one.groups[0].rotation.value, other.groups[0].rotation.value);
+    const auto judge_one = judged(one, 1, 1), judge_other = judged(other, 1, 1);
+    for (std::size_t j = 0; j < judge_one.size(); ++j) {
+      EXPECT_EQ(judge_one[j].found->value[0], judge_other[j].found->value[0]) << judge_one[j].name;
+      EXPECT_EQ(judge_one[j].found->error[0], judge_other[j].found->error[0]) << judge_one[j].name;
+    }
   }
 }
 
@@ -361,16 +361,13 @@ TEST(Displacement, PartsAlongAndAcrossTheLongAxisAtTheOriginOfTime) {
   configuration.angle = {0.7, 1.1};
   configuration.velocity = {Vec2(3 * std::cos(0.7), 3 * std::sin(0.7)),
                             Vec2(-2 * std::sin(1.1), 2 * std::cos(1.1))};
-  configuration.angular_velocity = {0, std::numbers::pi};
-  std::vector<Configuration2> frames{configuration};
-  fly(configuration, 0.5);
-  frames.push_back(configuration);
-  MemoryTrajectory2 trajectory(std::move(frames));
+  configuration.angular_velocity = {0, pi};
+  MemoryTrajectory2 trajectory = flight(configuration, 2, 0.5);
   const DisplacementGroup all = displacements(trajectory).groups[0];
   EXPECT_NEAR(all.parallel.value[0], 0.5 * 2.25, 1e-13);
   EXPECT_NEAR(all.perpendicular.value[0], 0.5 * 1, 1e-13);
   EXPECT_NEAR(all.quartic.value[0], 0.5 * (2.25 * 2.25 + 1), 1e-13);
-  EXPECT_NEAR(all.quartic_rotation.value[0], 0.5 * std::pow(std::numbers::pi / 2, 4), 1e-12);
+  EXPECT_NEAR(all.quartic_rotation.value[0], 0.5 * std::pow(pi / 2, 4), 1e-12);
   EXPECT_NEAR(all.orientation[0].value[0], 0.5 * (1 - 1), 1e-13);
 }
 
@@ -380,15 +377,12 @@ TEST(Displacement, PartsAlongAndAcrossTheLongAxisAtTheOriginOfTime) {
 // times.
 TEST(Displacement, SusceptibilityCountsParticlesThatMoveTogether) {
   Stream draw(7, Purpose::tests);
-  Configuration2 configuration = ellipses(50);
-  std::vector<Configuration2> frames;
-  for (int k = 0; k < 2000; ++k) {
-    frames.push_back(configuration);
-    const double jump = draw.uniform() < 0.5 ? 1 : 0;
-    for (Vec2& velocity : configuration.velocity) velocity = Vec2(jump, 0);
-    fly(configuration, 1);
-  }
-  MemoryTrajectory2 trajectory(std::move(frames));
+  MemoryTrajectory2 trajectory =
+      trajectory_of(2000, ellipses(50), [&](Configuration2& c, std::size_t k) {
+        if (k == 0) return;
+        c.velocity.assign(50, Vec2(draw.uniform() < 0.5 ? 1 : 0, 0));
+        fly(c, 1);
+      });
   const Displacements result = displacements(trajectory);
   EXPECT_NEAR(result.overlap.value[0], 0.5, 2 * result.overlap.error[0]);
   EXPECT_NEAR(result.overlap.error[0], 0.5 / std::sqrt(2000), 0.39 * 0.5 / std::sqrt(2000));
@@ -398,8 +392,7 @@ TEST(Displacement, SusceptibilityCountsParticlesThatMoveTogether) {
 // 4π/(√3 s) with the spacing s = √(2/(√3 ρ)) of the triangular lattice.
 TEST(Displacement, MainWaveNumberIsThatOfTheTriangularLattice) {
   const double spacing = std::sqrt(2 / (std::sqrt(3.0) * 70 / 35));
-  EXPECT_NEAR(main_wave_number(ellipses(70)), 4 * std::numbers::pi / (std::sqrt(3.0) * spacing),
-              1e-13);
+  EXPECT_NEAR(main_wave_number(ellipses(70)), 4 * pi / (std::sqrt(3.0) * spacing), 1e-13);
   MemoryTrajectory2 trajectory = free_brownian(ellipses(70), 3, 6);
   EXPECT_EQ(displacements(trajectory).wave_numbers,
             std::vector<double>{main_wave_number(ellipses(70))});
@@ -443,27 +436,6 @@ TEST(Displacement, HalvesAreThoseOfTheirFrames) {
     expect_same(half.translation, group.translation);
     expect_same(half.self_scattering.front(), group.self_scattering.front());
     expect_same(half.orientation.front(), group.orientation.front());
-  }
-}
-
-// Thinned origins are every so many frames, which lie apart in the path.
-TEST(Displacement, ThinnedOriginsAreThoseFrames) {
-  MemoryTrajectory2 trajectory = free_brownian(ellipses(3), 100, 2);
-  const Displacements found = displacements(trajectory, {.axis = {.max_origins = 15}});
-  for (std::size_t l = 0; l < found.lag.size(); ++l) {
-    const auto lag = static_cast<std::size_t>(std::lround(found.lag[l] / found.lag[0]));
-    double square = 0, turn = 0, origins = 0;
-    for (std::size_t k = 0; k + lag < 100; k += 7, ++origins)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Vec2 from = trajectory.read(k).unwrapped(i);
-        const double angle = trajectory.read(k).angle[i];
-        square += (trajectory.read(k + lag).unwrapped(i) - from).squaredNorm() / 3;
-        const double turned = trajectory.read(k + lag).angle[i] - angle;
-        turn += turned * turned / 3;
-      }
-    EXPECT_EQ(found.origins[l], static_cast<std::size_t>(origins));
-    EXPECT_NEAR(found.groups[0].translation.value[l], square / origins, 1e-12 * square);
-    EXPECT_NEAR(found.groups[0].rotation.value[l], turn / origins, 1e-12 * turn);
   }
 }
 

@@ -5,15 +5,14 @@
 #include <cmath>
 
 #include "core/random/stream.h"
+#include "tests/support/particles_of.h"
 
 namespace vitrel {
 namespace {
 
 Configuration2 an_ellipse_and_a_disk(double time) {
-  Configuration2 configuration;
-  configuration.resize(2);
+  auto configuration = particles_of<2>({{2, 1}, {1, 1}});
   configuration.time = time;
-  configuration.shape = {{2, 1}, {1, 1}};
   configuration.mass = {2, 3};
   configuration.velocity = {Vec2(1, 1 + time), Vec2(0, 2)};
   configuration.angular_velocity = {3, 50};

@@ -7,53 +7,39 @@
 
 #include "analysis/dynamics/collective_scattering.h"
 #include "core/random/stream.h"
+#include "tests/support/frames.h"
+#include "tests/support/random_gas.h"
+#include "tests/support/scenes.h"
 
 namespace vitrel {
 namespace {
 
-/// Particles at random places, or on a lattice of side^Dim points.
-template <int Dim>
-Configuration<Dim> particles(std::size_t side, bool on_lattice, const Vec<Dim>& lengths) {
-  Configuration<Dim> c;
-  c.resize(static_cast<std::size_t>(std::pow(side, Dim) + 0.5));
-  c.species_names = {"A"};
-  c.box = PeriodicBox<Dim>(lengths);
-  Stream draw(1, Purpose::tests);
-  for (std::size_t i = 0, rest = 0; i < c.size(); ++i, rest = i)
-    for (int d = 0; d < Dim; ++d, rest /= side) {
-      const double place = (static_cast<double>(rest % side) + 0.5) / static_cast<double>(side);
-      c.position[i][d] = lengths[d] * ((on_lattice ? place : draw.uniform()) - 0.5);
-    }
-  return c;
-}
-
 /// Every particle is in one of `states` boxes at every frame, at the same place in each: from any frame to any other it
 /// stays with probability 1/states, whatever it does elsewhere.
 template <int Dim>
-MemoryTrajectory<Dim> jumping(Configuration<Dim> c, std::size_t frames, std::uint64_t states) {
+MemoryTrajectory<Dim> jumping(const Configuration<Dim>& places, std::size_t frames,
+                              std::uint64_t states) {
   Stream draw(2, Purpose::tests);
-  std::vector<Configuration<Dim>> all;
-  for (std::size_t k = 0; k < frames; ++k) {
+  return trajectory_of(frames, places, [&](Configuration<Dim>& c, std::size_t k) {
     c.time = static_cast<double>(k);
     for (Shift<Dim>& image : c.image) image[0] = static_cast<std::int32_t>(draw.below(states));
-    all.push_back(c);
-  }
-  return MemoryTrajectory<Dim>(std::move(all));
+  });
 }
 
+/// The wave numbers of the eight shells, in steps of the longest side.
 template <int Dim>
-double modes_of(const PeriodicBox<Dim>& box, std::size_t shell) {
-  const double unit = 2 * std::numbers::pi / box.lengths().maxCoeff();
-  return static_cast<double>(
-      wave_vector_shell(box, unit * static_cast<double>(shell + 1)).n.size());
+std::vector<double> shells(const PeriodicBox<Dim>& box) {
+  std::vector<double> wave_numbers;
+  for (int k = 1; k <= 8; ++k)
+    wave_numbers.push_back(2 * std::numbers::pi * k / box.lengths().maxCoeff());
+  return wave_numbers;
 }
 
 /// S(q) of the places in the same shells.
 template <int Dim>
 std::vector<double> structure_factors(MemoryTrajectory<Dim>& trajectory) {
-  std::vector<double> wave_numbers, factors;
-  for (int k = 1; k <= 8; ++k)
-    wave_numbers.push_back(2 * std::numbers::pi * k / trajectory.read(0).box.lengths().maxCoeff());
+  std::vector<double> factors;
+  const std::vector<double> wave_numbers = shells(trajectory.read(0).box);
   for (const Correlation& f : collective_scattering(trajectory, wave_numbers).scattering)
     factors.push_back(f.value[0]);
   return factors;
@@ -70,7 +56,7 @@ TwoTimeAverages four_point(MemoryTrajectory<Dim>& trajectory, double overlap_dis
 
 template <int Dim>
 void expect_structure_factor(const Vec<Dim>& lengths) {
-  auto trajectory = jumping<Dim>(particles<Dim>(5, false, lengths), 30, 1);
+  auto trajectory = jumping<Dim>(random_gas<Dim>(Dim == 2 ? 25 : 125, lengths, 1), 30, 1);
   const TwoTimeAverages found = four_point(trajectory);
   ASSERT_EQ(found.x.size(), 8u);
   const std::vector<double> expected = structure_factors(trajectory);
@@ -97,7 +83,8 @@ void expect_independent(const Configuration<Dim>& places, std::size_t frames) {
   for (std::size_t s = 0; s < 8; ++s)
     for (std::size_t l = 0; l < found.at_lag.size(); ++l) {
       const double expected = still[s] / 9 + 2. / 9;
-      const double modes = modes_of(places.box, s) * static_cast<double>(lags[l].origins);
+      const std::size_t vectors = wave_vector_shell(places.box, shells(places.box)[s]).n.size();
+      const auto modes = static_cast<double>(vectors * lags[l].origins);
       EXPECT_NEAR(found.at_lag[l].mean[s] / expected, 1, 5 / std::sqrt(modes));
       quotients += modes * found.at_lag[l].mean[s] / expected;
       count += modes;
@@ -106,10 +93,10 @@ void expect_independent(const Configuration<Dim>& places, std::size_t frames) {
 }
 
 TEST(FourPointStructure, OfIndependentParticlesFollowsFromTheirShareWithinTheDistance) {
-  expect_independent<2>(particles<2>(20, false, {30, 30}), 200);
-  expect_independent<3>(particles<3>(7, false, {15, 15, 15}), 200);
+  expect_independent<2>(random_gas<2>(400, {30, 30}, 1), 200);
+  expect_independent<3>(random_gas<3>(343, {15, 15, 15}, 1), 200);
   // On a lattice S = 0 at these q, and S₄ is χ₄ = p (1 − p).
-  const auto lattice = particles<2>(20, true, {30, 30});
+  const auto lattice = square_lattice(20, 0.5, 0, [](std::size_t) { return Ellipse{1, 1}; });
   expect_independent<2>(lattice, 200);
   auto trajectory = jumping<2>(lattice, 200, 3);
   EXPECT_LT(structure_factors(trajectory)[0], 1e-12);
@@ -117,7 +104,7 @@ TEST(FourPointStructure, OfIndependentParticlesFollowsFromTheirShareWithinTheDis
 
 // At a = 0 nobody counts as still, and beyond the longest way everybody.
 TEST(FourPointStructure, DependsOnTheDistance) {
-  auto trajectory = jumping<2>(particles<2>(6, false, {10, 10}), 40, 3);
+  auto trajectory = jumping<2>(random_gas<2>(36, {10, 10}, 1), 40, 3);
   const TwoTimeAverages none = four_point(trajectory, 0);
   const TwoTimeAverages all = four_point(trajectory, 21);
   const double still = structure_factors(trajectory)[2];
@@ -128,7 +115,7 @@ TEST(FourPointStructure, DependsOnTheDistance) {
 }
 
 TEST(FourPointStructure, ResultDoesNotDependOnTheNumberOfThreads) {
-  auto trajectory = jumping<2>(particles<2>(6, false, {10, 10}), 40, 3);
+  auto trajectory = jumping<2>(random_gas<2>(36, {10, 10}, 1), 40, 3);
   const TwoTimeAverages one = four_point(trajectory, 0.3, 1), many = four_point(trajectory, 0.3, 4);
   for (std::size_t l = 0; l < one.at_lag.size(); ++l) {
     EXPECT_EQ(one.at_lag[l].mean, many.at_lag[l].mean);

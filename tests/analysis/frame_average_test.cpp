@@ -7,6 +7,7 @@
 #include "analysis/statistics/blocking.h"
 #include "core/random/stream.h"
 #include "core/special_values.h"
+#include "tests/support/coverage.h"
 
 namespace vitrel {
 namespace {
@@ -44,19 +45,18 @@ TEST(FrameAverage, GivesNoWeightToWhatIsMissing) {
 // A ratio whose denominators scatter as much as the numerators: x = 2 + e/√w around the truth 2. In 600
 // series the error covers it in 68.27 %, within four binomial standard deviations.
 TEST(FrameAverage, HasErrorsThatCoverTheTruth) {
-  const int trials = 600;
-  int covered = 0;
-  for (int trial = 0; trial < trials; ++trial) {
-    Stream draw(2, Purpose::tests, static_cast<std::uint64_t>(trial));
+  Coverage coverage;
+  for (std::uint64_t trial = 0; trial < 600; ++trial) {
+    Stream draw(2, Purpose::tests, trial);
     FrameAverage average;
     for (int k = 0; k < 256; ++k) {
       const double weight = draw.uniform(0.2, 3);
       average.add(std::vector{2 + draw.normal() / std::sqrt(weight)}, std::vector{weight});
     }
     const Averages result = average.averages(true);
-    covered += std::abs(result.mean[0] - 2) < result.error[0];
+    coverage.count(result.mean[0] - 2, result.error[0]);
   }
-  EXPECT_NEAR(covered, 0.6827 * trials, 4 * std::sqrt(0.6827 * 0.3173 * trials));
+  expect_binomial(coverage.one, 600, 0.6827, 4);
 }
 
 }  // namespace

@@ -10,23 +10,14 @@ namespace {
 
 const DiffusionCoefficient diffusion{1, 0.1, 2, 3, ""}, rotational_diffusion{4, 0.4, 5, 6, ""};
 
-/// The data of 30 particles whose nematic order is said to be S, and what is told meanwhile.
+/// What is known of the run of 30 particles whose nematic order is said to be S, and what is told
+/// meanwhile.
 struct Told {
-  Told(MemoryTrajectory2& trajectory, double order) {
+  Told(MemoryTrajectory2& trajectory, double order, const CageRelative* cage = nullptr) {
     const Displacements found = displacements(trajectory);
     const OrderSeries orders{{order}, {0.1}};
-    const CompressibilitySeries no_pressure{};
-    const GlassSource run{"run",
-                          1,
-                          0.5,
-                          30,
-                          false,
-                          found,
-                          nullptr,
-                          no_pressure,
-                          orders,
-                          diffusion,
-                          rotational_diffusion};
+    const GlassSource run{
+        "run", 1, 0.5, 30, false, found, cage, {}, orders, diffusion, rotational_diffusion};
     data = glass_run_data(trajectory, run, {},
                           [&](const Progress& progress) { progresses.push_back(progress); });
   }
@@ -61,11 +52,8 @@ TEST(GlassRunData, NeedsNoPassOfItsOwn) {
 
 TEST(GlassRunData, InThePlaneTranslationIsRelativeToTheCage) {
   MemoryTrajectory2 trajectory = free_brownian(ellipses(30), 80, 1);
-  const Displacements found = displacements(trajectory);
   const auto cage = cage_relative(trajectory);
-  const GlassSource run{
-      "run", 1, 0.5, 30, false, found, &*cage, {}, {}, diffusion, rotational_diffusion};
-  const auto data = glass_run_data(trajectory, run, {});
+  const auto [data, told] = Told(trajectory, 0.1, &*cage);
   EXPECT_TRUE(data->relative_to_cage);
   EXPECT_EQ(data->scattering.value, cage->self_scattering.front().value);
 }

@@ -1,31 +1,58 @@
 #include "analysis/glass/glass_fit.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "core/error.h"
 #include "core/random/stream.h"
+#include "tests/support/coverage.h"
+#include "tests/support/even_steps.h"
 
 namespace vitrel {
 namespace {
 
-std::vector<double> densities(double from, double step, int count) {
-  std::vector<double> result;
-  for (int k = 0; k < count; ++k) result.push_back(from + step * k);
-  return result;
-}
+using testing::HasSubstr;
 
-/// Times by ln τ = y(φ), scattered by their relative error (in the logarithm).
+/// Times by ln τ = y(φ), without noise.
 template <class Y>
-std::vector<GlassPoint> times(const std::vector<double>& packing_fractions, double relative_error,
-                              Stream& draw, Y&& y) {
+std::vector<GlassPoint> exact_times(const std::vector<double>& packing_fractions,
+                                    double relative_error, Y&& y) {
   std::vector<GlassPoint> points;
   for (const double phi : packing_fractions) {
-    const double time = std::exp(y(phi) + relative_error * draw.normal());
+    const double time = std::exp(y(phi));
     points.push_back({phi, time, relative_error * time});
   }
   return points;
+}
+
+/// The same, scattered by their relative error (in the logarithm).
+template <class Y>
+std::vector<GlassPoint> times(const std::vector<double>& packing_fractions, double relative_error,
+                              Stream& draw, Y&& y) {
+  return exact_times(packing_fractions, relative_error,
+                     [&](double phi) { return y(phi) + relative_error * draw.normal(); });
+}
+
+/// The fits to a hundred samples of such times.
+template <class Y>
+std::vector<GlassFit> sampled_fits(const std::vector<double>& packing_fractions,
+                                   double relative_error, Y&& y,
+                                   GlassLaw law = GlassLaw::mode_coupling) {
+  std::vector<GlassFit> fits;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Stream draw(seed, Purpose::tests);
+    fits.push_back(fit_glass_law(times(packing_fractions, relative_error, draw, y), law));
+  }
+  return fits;
+}
+
+/// The reason for which a law is refused; empty if it is not.
+std::string refusal(const GlassFit& fit) {
+  return fit.verdict == GlassVerdict::refused ? fit.reason : "";
+}
+std::string refusal(const std::vector<GlassPoint>& points, GlassLaw law = GlassLaw::mode_coupling) {
+  return refusal(fit_glass_law(points, law));
 }
 
 double power_law(double phi) {
@@ -36,52 +63,33 @@ double vogel_fulcher_law(double phi) {
 }
 
 /// Nine densities over which both laws grow by three decades.
-const std::vector<double> three_decades = densities(0.60, 0.022413, 9);
+const std::vector<double> three_decades = even_steps(0.60, 0.022413, 9);
+const std::vector<double> nine_densities = even_steps(0.60, 0.02, 9);
 
-/// How often φ_c and s lie within one and two errors.
-struct Coverage {
-  int found = 0, one = 0, two = 0, strength_one = 0;
-
-  void count(const GlassFit& fit, double density, double strength) {
-    if (fit.verdict != GlassVerdict::found) return;
-    ++found;
-    const GlassWindow& w = fit.window;
-    one += std::abs(w.density - density) < w.error();
-    two += std::abs(w.density - density) < 2 * w.error();
-    strength_one += std::abs(w.strength - strength) < w.strength_error();
-  }
-
-  // Binomial counts within 3 standard deviations, false-alarm rate 0.3 % each.
-  void expect_covers() const {
-    EXPECT_NEAR(one, 0.6827 * found, 3 * 4.65);
-    EXPECT_GE(two, 0.954 * found - 3 * 2.1);
-    EXPECT_NEAR(strength_one, 0.6827 * found, 3 * 4.65);
-  }
+struct KnownLaw {
+  GlassLaw law;
+  double (*y)(double);
+  double density, strength;
 };
 
-// The rules refuse few power laws, and do not choose among them: the errors of what is found cover.
-TEST(GlassFit, ErrorsCoverTheDensityOfThePowerLaw) {
-  Coverage coverage;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    Stream draw(seed, Purpose::tests);
-    coverage.count(
-        fit_glass_law(times(three_decades, 0.05, draw, power_law), GlassLaw::mode_coupling), 0.79,
-        2.4);
+// The rules refuse few laws, and do not choose among them: the errors of what is found cover.
+// Binomial counts within 3 standard deviations, false-alarm rate 0.3 % each.
+TEST(GlassFit, ErrorsCoverTheDensityAndTheStrength) {
+  for (const auto& [law, y, density, strength] :
+       {KnownLaw{GlassLaw::mode_coupling, power_law, 0.79, 2.4},
+        KnownLaw{GlassLaw::vogel_fulcher, vogel_fulcher_law, 0.82, 0.42}}) {
+    Coverage of_density, of_strength;
+    for (const GlassFit& fit : sampled_fits(three_decades, 0.05, y, law)) {
+      if (fit.verdict != GlassVerdict::found) continue;
+      of_density.count(fit.window.density - density, fit.window.error());
+      of_strength.count(fit.window.strength - strength, fit.window.strength_error());
+    }
+    const int found = of_density.known + of_density.unknown;
+    EXPECT_GE(found, 90);
+    EXPECT_NEAR(of_density.one, 0.6827 * found, 3 * 4.65);
+    EXPECT_GE(of_density.two, 0.954 * found - 3 * 2.1);
+    EXPECT_NEAR(of_strength.one, 0.6827 * found, 3 * 4.65);
   }
-  EXPECT_GE(coverage.found, 90);
-  coverage.expect_covers();
-}
-
-TEST(GlassFit, ErrorsCoverTheDensityOfVogelAndFulcher) {
-  Coverage coverage;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    Stream draw(seed, Purpose::tests);
-    coverage.count(
-        fit_glass_law(times(three_decades, 0.05, draw, vogel_fulcher_law), GlassLaw::vogel_fulcher),
-        0.82, 0.42);
-  }
-  EXPECT_GE(coverage.found, 90);
-  coverage.expect_covers();
 }
 
 /// A power law up to a density, and exponential growth as steep beyond: a liquid that crosses over.
@@ -103,38 +111,14 @@ TEST(GlassFit, OtherLawsAreNotTakenForThePowerLaw) {
       {"Vogel and Fulcher", three_decades, [](double phi) { return 0.81 * phi / (0.85 - phi); }},
       {"Vogel and Fulcher, far", three_decades, [](double phi) { return 1.6 * phi / (0.9 - phi); }},
       {"Arrhenius", three_decades, [](double phi) { return 40 * phi; }},
-      {"crossing over", densities(0.60, 0.025, 9), crossing_over},
+      {"crossing over", even_steps(0.60, 0.025, 9), crossing_over},
       {"exponent 1.1", three_decades, [](double phi) { return -1.1 * std::log(0.79 - phi); }}};
   for (const auto& [name, packing_fractions, y] : laws) {
     int found = 0;
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
-      Stream draw(seed, Purpose::tests);
-      const GlassFit fit =
-          fit_glass_law(times(packing_fractions, 0.05, draw, y), GlassLaw::mode_coupling);
+    for (const GlassFit& fit : sampled_fits(packing_fractions, 0.05, y))
       found += fit.verdict == GlassVerdict::found;
-    }
     EXPECT_LE(found, 5) << name;
   }
-}
-
-/// The reason for which a law is refused; empty if it is not.
-std::string refusal(const std::vector<GlassPoint>& points, GlassLaw law) {
-  const GlassFit fit = fit_glass_law(points, law);
-  return fit.verdict == GlassVerdict::refused ? fit.reason : "";
-}
-
-/// Times without noise.
-template <class Y>
-std::vector<GlassPoint> exact_times(const std::vector<double>& packing_fractions,
-                                    double relative_error, Y&& y) {
-  std::vector<GlassPoint> points;
-  for (const double phi : packing_fractions)
-    points.push_back({phi, std::exp(y(phi)), relative_error * std::exp(y(phi))});
-  return points;
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 // Below 0.62 times stay above the power law (no caging yet), by 15 · 0.06/0.05 = 18σ at 0.56. The best
@@ -143,13 +127,10 @@ bool has(const std::string& text, const std::string& part) {
 // it; such samples are to be as rare as deviations of 2σ.
 TEST(GlassFit, DensitiesBelowThePowerLawContradictIt) {
   int refused = 0, named = 0;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    Stream draw(seed, Purpose::tests);
-    const auto y = [](double phi) { return power_law(phi) + 15 * std::max(0.0, 0.62 - phi); };
-    const std::string reason =
-        refusal(times(densities(0.56, 0.02, 11), 0.05, draw, y), GlassLaw::mode_coupling);
-    refused += !reason.empty();
-    named += has(reason, "misses the time at 0.56 by");
+  const auto y = [](double phi) { return power_law(phi) + 15 * std::max(0.0, 0.62 - phi); };
+  for (const GlassFit& fit : sampled_fits(even_steps(0.56, 0.02, 11), 0.05, y)) {
+    refused += !refusal(fit).empty();
+    named += refusal(fit).find("misses the time at 0.56 by") != std::string::npos;
   }
   EXPECT_GE(refused, 95);
   EXPECT_GT(named, refused / 2);
@@ -160,14 +141,10 @@ TEST(GlassFit, DensitiesBelowThePowerLawContradictIt) {
 // can be refused. With errors of 2 % it adds 55.
 TEST(GlassFit, DensitiesBeyondThePowerLawContradictIt) {
   const auto found = [](double relative_error) {
+    const auto y = [](double phi) { return power_law(phi) - 40 * std::max(0.0, phi - 0.75); };
     int count = 0;
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
-      Stream draw(seed, Purpose::tests);
-      const auto y = [](double phi) { return power_law(phi) - 40 * std::max(0.0, phi - 0.75); };
-      count += refusal(times(densities(0.58, 0.02, 11), relative_error, draw, y),
-                       GlassLaw::mode_coupling)
-                   .empty();
-    }
+    for (const GlassFit& fit : sampled_fits(even_steps(0.58, 0.02, 11), relative_error, y))
+      count += refusal(fit).empty();
     return count;
   };
   EXPECT_LE(found(0.05), 30);
@@ -178,11 +155,10 @@ TEST(GlassFit, DensitiesBeyondThePowerLawContradictIt) {
 TEST(GlassFit, AnExponentThatModeCouplingTheoryForbidsIsNone) {
   const auto refusal_of = [](double exponent) {
     return refusal(exact_times(three_decades, 1e-3,
-                               [&](double phi) { return -exponent * std::log(0.79 - phi); }),
-                   GlassLaw::mode_coupling);
+                               [&](double phi) { return -exponent * std::log(0.79 - phi); }));
   };
-  EXPECT_TRUE(has(refusal_of(1.1), "the exponent is below 1.1 with a probability of 95 %"));
-  EXPECT_TRUE(has(refusal_of(1.75), "the exponent is below 1.75 "));
+  EXPECT_THAT(refusal_of(1.1), HasSubstr("the exponent is below 1.1 with a probability of 95 %"));
+  EXPECT_THAT(refusal_of(1.75), HasSubstr("the exponent is below 1.75 "));
   EXPECT_EQ(refusal_of(1.764), "");  // its limit of 95 % is above 1.765
 }
 
@@ -190,47 +166,43 @@ TEST(GlassFit, AnExponentThatModeCouplingTheoryForbidsIsNone) {
 // (0.19/0.09)^2.4 = 6.0 in the window that is left.
 TEST(GlassFit, ADecadeMustLieWithinTheWindow) {
   const auto y = [](double phi) { return power_law(phi) + (phi > 0.705 ? 1.1 : 0); };
-  EXPECT_TRUE(has(refusal(exact_times(densities(0.60, 0.02, 8), 1e-3, y), GlassLaw::mode_coupling),
-                  "within the best window, [0.6, 0.7], the times grow by a factor of only 6"));
+  EXPECT_THAT(
+      refusal(exact_times(even_steps(0.60, 0.02, 8), 1e-3, y)),
+      HasSubstr("within the best window, [0.6, 0.7], the times grow by a factor of only 6"));
 }
 
 // The crossing-over liquid, with many densities and without noise, so that χ² finds nothing to blame.
 TEST(GlassFit, ADensityThatFollowsTheEndOfTheWindowIsNone) {
-  const std::string reason = refusal(
-      exact_times(densities(0.60, 0.18 / 19, 20), 0.07, crossing_over), GlassLaw::mode_coupling);
-  EXPECT_TRUE(has(reason, "phi_c follows the end of the window: it is 0.8112 up to 0.78, but 0.79"))
-      << reason;
+  EXPECT_THAT(refusal(exact_times(even_steps(0.60, 0.18 / 19, 20), 0.07, crossing_over)),
+              HasSubstr("phi_c follows the end of the window: it is 0.8112 up to 0.78, but 0.79"));
 }
 
 // Exact times by one law, whose χ² is 0. They grow by 70, and with errors of 5 % χ² of the other one is 2.8.
 TEST(GlassFit, TheDataMustTellTheLawsApart) {
   const auto refusal_of = [](double relative_error) {
-    return refusal(exact_times(densities(0.60, 0.02, 9), relative_error, power_law),
-                   GlassLaw::mode_coupling);
+    return refusal(exact_times(nine_densities, relative_error, power_law));
   };
-  EXPECT_TRUE(has(refusal_of(0.05), "chi^2 is 0.00 by this one and 2.82 by the other"))
-      << refusal_of(0.05);
+  EXPECT_THAT(refusal_of(0.05), HasSubstr("chi^2 is 0.00 by this one and 2.82 by the other"));
   EXPECT_EQ(refusal_of(0.01), "");
 }
 
 // The same with a distinction of 5.4, which times drawn anew halve.
 TEST(GlassFit, TheVerdictMustSurviveTheErrorsOfTheTimes) {
-  const std::string reason =
-      refusal(exact_times(densities(0.60, 0.02, 9), 0.036, power_law), GlassLaw::mode_coupling);
-  EXPECT_TRUE(has(reason, "does not survive the errors of the times")) << reason;
+  EXPECT_THAT(refusal(exact_times(nine_densities, 0.036, power_law)),
+              HasSubstr("does not survive the errors of the times"));
 }
 
 // An outlier beyond the window, at 0.78 and 5σ below the law that all others obey exactly: the law of the
 // window is known so well that the distance is that in errors of the time alone.
 TEST(GlassFit, ADensityOutsideTheWindowIsComparedWithTheExtrapolatedLaw) {
-  std::vector<GlassPoint> points = exact_times(densities(0.60, 0.02, 9), 1e-4, power_law);
+  std::vector<GlassPoint> points = exact_times(nine_densities, 1e-4, power_law);
   const double time = std::exp(power_law(0.78) - 5 * 0.1);
   points.push_back({0.78, time, 0.1 * time});
-  EXPECT_TRUE(has(refusal(points, GlassLaw::mode_coupling),
-                  "the law of the best window, [0.6, 0.76], misses the time at 0.78 by 5 "));
+  EXPECT_THAT(refusal(points),
+              HasSubstr("the law of the best window, [0.6, 0.76], misses the time at 0.78 by 5 "));
   points.back() = {0.80, time, 0.1 * time};
-  EXPECT_TRUE(has(refusal(points, GlassLaw::mode_coupling),
-                  "times at 0.8 are finite, beyond the phi_c = 0.79 of the best window"));
+  EXPECT_THAT(refusal(points),
+              HasSubstr("times at 0.8 are finite, beyond the phi_c = 0.79 of the best window"));
 }
 
 // (0.95 − φ)^−10 grows by a factor of 12 from 0.50 to 0.60, so far from φ_c that a power law cannot be told
@@ -239,12 +211,10 @@ TEST(GlassFit, ADensityOutsideTheWindowIsComparedWithTheExtrapolatedLaw) {
 TEST(GlassFit, FarFromTheDivergenceThereIsABoundOnly) {
   int bounds = 0, wrong = 0;
   const auto y = [](double phi) { return -10 * std::log(0.95 - phi); };
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    Stream draw(seed, Purpose::tests);
-    const GlassFit fit =
-        fit_glass_law(times(densities(0.50, 0.02, 6), 0.1, draw, y), GlassLaw::mode_coupling);
-    bounds += fit.verdict == GlassVerdict::lower_bound;
-    wrong += fit.verdict == GlassVerdict::lower_bound && fit.window.least > 0.95;
+  for (const GlassFit& fit : sampled_fits(even_steps(0.50, 0.02, 6), 0.1, y)) {
+    const bool is_bound = fit.verdict == GlassVerdict::lower_bound;
+    bounds += is_bound;
+    wrong += is_bound && fit.window.least > 0.95;
     wrong +=
         fit.verdict == GlassVerdict::found && (fit.window.low > 0.95 || fit.window.high < 0.95);
   }
@@ -256,7 +226,7 @@ TEST(GlassFit, FarFromTheDivergenceThereIsABoundOnly) {
 // with a probability of more than 5 %, not above the highest density.
 TEST(GlassFit, ABoundBelowTheHighestDensityIsNone) {
   for (const double relative_error : {0.8, 0.9}) {
-    const auto points = exact_times(densities(0.70, 0.02, 5), relative_error,
+    const auto points = exact_times(even_steps(0.70, 0.02, 5), relative_error,
                                     [](double phi) { return -2.5 * std::log(0.82 - phi); });
     const GlassFit fit = fit_glass_law(points, GlassLaw::mode_coupling);
     EXPECT_GT(fit.window.low, 0.78) << relative_error;
@@ -271,13 +241,14 @@ TEST(GlassFit, ABoundBelowTheHighestDensityIsNone) {
 // hardly more than a straight line is known. From 0.60 to 0.716 it is (0.19/0.074)^2.4 = 9.62, to 0.72 11.0.
 TEST(GlassFit, ADecadeOfGrowthIsNeededHoweverWellTheLawFits) {
   const auto exact = [](double from, double to) {
-    return exact_times(densities(from, (to - from) / 5, 6), 1e-4, power_law);
+    return exact_times(even_steps(from, (to - from) / 5, 6), 1e-4, power_law);
   };
   for (const GlassLaw law : {GlassLaw::mode_coupling, GlassLaw::vogel_fulcher})
-    EXPECT_TRUE(has(refusal(exact(0.50, 0.60), law),
-                    "grow by a factor of only 2.8 from 0.5 to 0.6, and to extrapolate takes 10"));
-  EXPECT_TRUE(has(refusal(exact(0.60, 0.716), GlassLaw::mode_coupling), "a factor of only 9.6"));
-  EXPECT_EQ(refusal(exact(0.60, 0.72), GlassLaw::mode_coupling), "");
+    EXPECT_THAT(
+        refusal(exact(0.50, 0.60), law),
+        HasSubstr("grow by a factor of only 2.8 from 0.5 to 0.6, and to extrapolate takes 10"));
+  EXPECT_THAT(refusal(exact(0.60, 0.716)), HasSubstr("a factor of only 9.6"));
+  EXPECT_EQ(refusal(exact(0.60, 0.72)), "");
 }
 
 // Above 0.70 times grow more slowly than by the law of a divergence at 0.72: what relaxes at 0.76 is not
@@ -291,7 +262,7 @@ TEST(GlassFit, NoDivergenceIsBelowADensityThatRelaxes) {
     };
   };
   const auto fit = [&](GlassLaw law) {
-    return fit_glass_law(times(densities(0.60, 0.02, 9), 0.05, draw, y(law)), law);
+    return fit_glass_law(times(nine_densities, 0.05, draw, y(law)), law);
   };
   for (const GlassWindow& window : fit(GlassLaw::vogel_fulcher).windows)
     EXPECT_FALSE(window.density < 0.76) << window.highest;
@@ -304,11 +275,9 @@ TEST(GlassFit, NoDivergenceIsBelowADensityThatRelaxes) {
 // Without noise the parameters come out to rounding, and the covariance is that of the curvature:
 // the interval of a parabola, low … high, is 2σ wide as σ → 0.
 TEST(GlassFit, WithoutNoiseTheLawIsFoundExactly) {
-  Stream draw(1, Purpose::tests);
   for (const GlassLaw law : {GlassLaw::mode_coupling, GlassLaw::vogel_fulcher}) {
-    const auto points = exact_times(densities(0.60, 0.02, 9), 1e-4, [law](double phi) {
-      return glass_law(law, 1.5, 1.8, 0.81, phi);
-    });
+    const auto points = exact_times(
+        nine_densities, 1e-4, [law](double phi) { return glass_law(law, 1.5, 1.8, 0.81, phi); });
     const GlassFit fit = fit_glass_law(points, law);
     ASSERT_EQ(fit.verdict, GlassVerdict::found) << fit.reason;
     EXPECT_NEAR(fit.window.density, 0.81, 1e-8);
@@ -332,7 +301,7 @@ TEST(GlassFit, WithoutNoiseTheLawIsFoundExactly) {
 // Two seeds ±d apart in ln τ with errors e, at nine densities: S² = 2 d²/e² per degree of freedom.
 TEST(GlassFit, SeedsThatScatterMoreThanTheirErrorsMakeThemLarger) {
   std::vector<GlassPoint> points;
-  for (const double phi : densities(0.60, 0.02, 9))
+  for (const double phi : nine_densities)
     for (const double sign : {-1.0, 1.0}) {
       const double time = std::exp(power_law(phi) + sign * 0.03);
       points.push_back({phi, time, 0.01 * time});
@@ -353,20 +322,22 @@ TEST(GlassFit, DataThatDoNotSupportAFitAreRefusedWithTheReason) {
     EXPECT_EQ(fit.verdict, GlassVerdict::refused);
     return fit.reason;
   };
-  EXPECT_TRUE(has(reason({}), "0 densities in equilibrium"));
-  EXPECT_TRUE(has(reason(times(densities(0.6, 0.02, 4), 0.05, draw, power_law)), "4 densities"));
+  EXPECT_THAT(reason({}), HasSubstr("0 densities in equilibrium"));
+  EXPECT_THAT(reason(times(even_steps(0.6, 0.02, 4), 0.05, draw, power_law)),
+              HasSubstr("4 densities"));
   // Five runs, but only two densities.
-  EXPECT_TRUE(has(reason(times({0.6, 0.6, 0.6, 0.7, 0.7}, 0.05, draw, power_law)), "2 densities"));
-  EXPECT_TRUE(
-      has(reason(times(densities(0.6, 0.02, 6), 1e-3, draw, [](double phi) { return -10 * phi; })),
-          "grow by a factor of only 0.37"));
-  EXPECT_TRUE(has(reason(times(densities(0.6, 0.02, 6), 1e-3, draw,
-                               [](double phi) { return 40 * phi + 2 * std::sin(100 * phi); })),
-                  "in no window"));
+  EXPECT_THAT(reason(times({0.6, 0.6, 0.6, 0.7, 0.7}, 0.05, draw, power_law)),
+              HasSubstr("2 densities"));
+  EXPECT_THAT(
+      reason(times(even_steps(0.6, 0.02, 6), 1e-3, draw, [](double phi) { return -10 * phi; })),
+      HasSubstr("grow by a factor of only 0.37"));
+  EXPECT_THAT(reason(times(even_steps(0.6, 0.02, 6), 1e-3, draw,
+                           [](double phi) { return 40 * phi + 2 * std::sin(100 * phi); })),
+              HasSubstr("in no window"));
   // They diverge at the highest density itself, but for 5e-7.
-  EXPECT_TRUE(has(reason(times(densities(0.62, 0.02, 5), 0.3, draw,
-                               [](double phi) { return -2.4 * std::log(0.7000005 - phi); })),
-                  "not distinct"));
+  EXPECT_THAT(reason(times(even_steps(0.62, 0.02, 5), 0.3, draw,
+                           [](double phi) { return -2.4 * std::log(0.7000005 - phi); })),
+              HasSubstr("not distinct"));
 }
 
 TEST(GlassFit, PointsWithoutTimeOrErrorAreTheUsersMistake) {

@@ -11,6 +11,7 @@ namespace vitrel {
 namespace {
 
 using testing::HasSubstr;
+using enum EquilibrationVerdict;
 
 TEST(GlassRun, InTheIsotropicLiquidOrientationsRelax) {
   const GlassRun run = judge_glass_run(run_with(0.6, 5, 20, 0.05));
@@ -18,7 +19,7 @@ TEST(GlassRun, InTheIsotropicLiquidOrientationsRelax) {
   EXPECT_EQ(run.plateau, 0);
   EXPECT_NEAR(run.translation.value, 5, 0.002 * 5);
   EXPECT_NEAR(run.rotation.value, 20, 0.002 * 20);
-  EXPECT_EQ(run.equilibration.verdict, EquilibrationVerdict::equilibrated);
+  EXPECT_EQ(run.equilibration.verdict, equilibrated);
 }
 
 // S = 0.8 ± 0.01/√512: the plateau is within 0.001 of that of the curve, which moves τ by 0.001·e/0.36 < 1 %.
@@ -29,7 +30,7 @@ TEST(GlassRun, InTheNematicOrderIsNotTakenForGlass) {
   EXPECT_EQ(run.orientation, OrientationKind::ordered);
   EXPECT_NEAR(run.plateau, 0.64, 0.001);
   EXPECT_NEAR(run.rotation.value, 20, 0.2);
-  EXPECT_EQ(run.equilibration.verdict, EquilibrationVerdict::equilibrated);
+  EXPECT_EQ(run.equilibration.verdict, equilibrated);
 }
 
 // A tenth of what order leaves free stays for ever: the connected part falls below 1/e, but does not vanish.
@@ -42,13 +43,12 @@ TEST(GlassRun, NematicOrderMustExplainTheWholePlateau) {
 }
 
 TEST(GlassRun, WhatOrderDoesNotExplainLasts) {
-  const GlassRun isotropic = judge_glass_run(run_with(0.75, 5, 1e6, 0.05));
-  EXPECT_EQ(isotropic.orientation, OrientationKind::lasting);
-  EXPECT_EQ(isotropic.equilibration.verdict, EquilibrationVerdict::too_short);
-  const GlassRun nematic = judge_glass_run(run_with(0.75, 5, 1e6, 0.8));
-  EXPECT_EQ(nematic.orientation, OrientationKind::lasting);
-  EXPECT_EQ(nematic.equilibration.verdict, EquilibrationVerdict::too_short);
-  EXPECT_THAT(nematic.equilibration.reason, HasSubstr("tau_2: still"));
+  for (const double order : {0.05, 0.8}) {
+    const GlassRun run = judge_glass_run(run_with(0.75, 5, 1e6, order));
+    EXPECT_EQ(run.orientation, OrientationKind::lasting) << order;
+    EXPECT_EQ(run.equilibration.verdict, too_short) << order;
+    EXPECT_THAT(run.equilibration.reason, HasSubstr("tau_2: still"));
+  }
 }
 
 // S = 0.6 of 20 rotors is less than three times √(π/80) = 0.198; of 25 it is more than 3·0.177.
@@ -67,9 +67,9 @@ TEST(GlassRun, DriftOfTheOrderIsAgeing) {
   for (std::size_t k = 0; k < data.nematic_order.size(); ++k)
     data.nematic_order[k] += 0.02 * static_cast<double>(k) / 512;
   const GlassRun run = judge_glass_run(data);
-  EXPECT_EQ(run.equilibration.verdict, EquilibrationVerdict::ageing);
+  EXPECT_EQ(run.equilibration.verdict, ageing);
   EXPECT_THAT(run.equilibration.reason, HasSubstr("the nematic order drifts"));
-  EXPECT_EQ(run.translation_equilibration.verdict, EquilibrationVerdict::equilibrated);
+  EXPECT_EQ(run.translation_equilibration.verdict, equilibrated);
 }
 
 /// The verdicts of a run of 1000 after reconciliation.
@@ -85,14 +85,12 @@ GlassRun reconciled(EquilibrationVerdict all, EquilibrationVerdict translation, 
 
 // A run of docs/glass.md was called ageing in its places and in equilibrium altogether.
 TEST(GlassRun, EquilibriumOfEverythingIsThatOfTranslation) {
-  using enum EquilibrationVerdict;
   EXPECT_EQ(reconciled(equilibrated, ageing, 10).translation_equilibration.verdict, equilibrated);
   EXPECT_EQ(reconciled(too_short, ageing, 10).translation_equilibration.verdict, ageing);
   EXPECT_EQ(reconciled(ageing, equilibrated, 10).translation_equilibration.verdict, equilibrated);
 }
 
 TEST(GlassRun, NoRunShorterThanThreeRelaxationTimesIsLongEnough) {
-  using enum EquilibrationVerdict;
   EXPECT_EQ(reconciled(equilibrated, equilibrated, 333).equilibration.verdict, equilibrated);
   const GlassRun run = reconciled(equilibrated, equilibrated, 334);
   EXPECT_EQ(run.equilibration.verdict, too_short);
@@ -108,27 +106,27 @@ TEST(GlassRun, DisksHaveNoOrientation) {
   data.nematic_order.clear();
   const GlassRun run = judge_glass_run(data);
   EXPECT_EQ(run.orientation, OrientationKind::round);
-  EXPECT_EQ(run.equilibration.verdict, EquilibrationVerdict::equilibrated);
+  EXPECT_EQ(run.equilibration.verdict, equilibrated);
   EXPECT_EQ(study_glass({run}).laws.size(), 2u);  // of translation
 }
 
 TEST(GlassStudy, FindsBothTransitionsFromTheRunsInEquilibrium) {
   const GlassStudy study = studied_sweep();
-  const GlassFit& turning = fit_of(study, GlassKind::rotation, GlassLaw::mode_coupling);
-  const GlassFit& moving = fit_of(study, GlassKind::translation, GlassLaw::mode_coupling);
-  ASSERT_EQ(turning.verdict, GlassVerdict::found) << turning.reason;
-  ASSERT_EQ(moving.verdict, GlassVerdict::found) << moving.reason;
-  EXPECT_NEAR(turning.window.density, 0.76, 2 * turning.window.error());
-  EXPECT_NEAR(moving.window.density, 0.80, 2 * moving.window.error());
-  EXPECT_LT(turning.window.error(), 0.005);
+  struct Transition {
+    GlassKind kind;
+    double density, highest;
+  };
   // At 0.76 and 0.78 orientations did not equilibrate, but places did.
-  const auto highest = [](const GlassFit& fit) {
+  for (const auto& [kind, density, highest] : {Transition{GlassKind::rotation, 0.76, 0.74},
+                                               Transition{GlassKind::translation, 0.80, 0.78}}) {
+    const GlassFit& fit = fit_of(study, kind, GlassLaw::mode_coupling);
+    ASSERT_EQ(fit.verdict, GlassVerdict::found) << fit.reason;
+    EXPECT_NEAR(fit.window.density, density, 2 * fit.window.error());
     double high = 0;
     for (const GlassWindow& window : fit.windows) high = std::max(high, window.highest);
-    return high;
-  };
-  EXPECT_NEAR(highest(turning), 0.74, 1e-9);
-  EXPECT_NEAR(highest(moving), 0.78, 1e-9);
+    EXPECT_NEAR(high, highest, 1e-9);
+  }
+  EXPECT_LT(fit_of(study, GlassKind::rotation, GlassLaw::mode_coupling).window.error(), 0.005);
 }
 
 // A power law with φ_c = 0.72 that holds up to 0.70, and slower growth beyond.

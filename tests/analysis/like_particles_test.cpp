@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "analysis/dynamics/correlation.h"
+#include "tests/support/particles_of.h"
 #include "tests/support/scenes.h"
 
 namespace vitrel {
@@ -15,9 +14,7 @@ namespace {
 template <int Dim>
 Configuration<Dim> particles(const std::vector<ParticleShape<Dim>>& shapes,
                              const std::vector<int>& species = {}) {
-  Configuration<Dim> c;
-  c.resize(shapes.size());
-  c.shape = shapes;
+  Configuration<Dim> c = particles_of<Dim>(shapes);
   c.species_names = {"A", "B"};
   for (std::size_t i = 0; i < species.size(); ++i) c.species[i] = species[i];
   return c;

@@ -2,22 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "analysis/dynamics/four_point.h"
 #include "analysis/dynamics/van_hove.h"
+#include "tests/support/frames.h"
 #include "tests/support/free_brownian.h"
+#include "tests/support/tables.h"
 
 namespace vitrel {
 namespace {
-
-using Names = std::vector<std::string>;
-
-Names names(const std::vector<Column>& columns) {
-  Names result;
-  for (const Column& column : columns) result.push_back(column.name);
-  return result;
-}
 
 /// The motion in 25 frames, with lags of one, two and three steps.
 RunMotion motion_of(MemoryTrajectory2& trajectory) {
@@ -42,32 +34,23 @@ MemoryTrajectory2 few_frames() {
 
 TEST(MotionTables, HaveTheColumnsThatOthersRelyOn) {
   MemoryTrajectory2 trajectory = few_frames();
-  const RunMotion motion = motion_of(trajectory);
-  const Results results{motion_tables(motion), {}};
-  EXPECT_EQ(names(results.find("velocity_autocorrelation")->columns),
-            (Names{"time", "c", "c_angular", "origins"}));
-  EXPECT_EQ(names(results.find("velocity_spectrum")->columns),
-            (Names{"frequency", "g", "g_angular"}));
-  EXPECT_EQ(names(results.find("viscosity")->columns), (Names{"time", "moment", "origins"}));
-  EXPECT_EQ(results.find("viscosity")->find("moment")->unit, "kT time^2/length^2");
-  EXPECT_EQ(names(results.find("lag_times")->columns), (Names{"index", "time", "origins"}));
-  EXPECT_EQ(names(results.find("van_hove_self")->columns),
-            (Names{"r", "density_1", "density_2", "density_3"}));
-  EXPECT_EQ(names(results.find("van_hove_distinct")->columns), (Names{"r", "g_1", "g_2", "g_3"}));
-  EXPECT_EQ(names(results.find("four_point_structure")->columns),
-            (Names{"q", "s4_1", "s4_2", "s4_3"}));
-  EXPECT_EQ(results.find("lag_times")->find("index")->value, (std::vector<double>{1, 2, 3}));
-  EXPECT_NEAR(results.find("lag_times")->find("time")->value[2], 3 * brownian_step, 1e-12);
-  for (const Table& table : results.tables)
-    for (const Column& column : table.columns) {
-      EXPECT_EQ(column.value.size(), table.rows()) << table.name << ' ' << column.name;
-      EXPECT_TRUE(column.error.empty() || column.error.size() == table.rows()) << column.name;
-    }
+  const std::vector<Table> tables = motion_tables(motion_of(trajectory));
+  expect_columns(tables, "velocity_autocorrelation", {"time", "c", "c_angular", "origins"});
+  expect_columns(tables, "velocity_spectrum", {"frequency", "g", "g_angular"});
+  expect_columns(tables, "viscosity", {"time", "moment", "origins"});
+  EXPECT_EQ(named(tables, "viscosity").find("moment")->unit, "kT time^2/length^2");
+  expect_columns(tables, "lag_times", {"index", "time", "origins"});
+  expect_columns(tables, "van_hove_self", {"r", "density_1", "density_2", "density_3"});
+  expect_columns(tables, "van_hove_distinct", {"r", "g_1", "g_2", "g_3"});
+  expect_columns(tables, "four_point_structure", {"q", "s4_1", "s4_2", "s4_3"});
+  EXPECT_EQ(named(tables, "lag_times").find("index")->value, (std::vector<double>{1, 2, 3}));
+  EXPECT_NEAR(named(tables, "lag_times").find("time")->value[2], 3 * brownian_step, 1e-12);
+  expect_whole_columns(tables);
 }
 
 TEST(MotionTables, WithoutVelocitiesOrEvenTimesSomeAreAbsent) {
   MemoryTrajectory2 even = few_frames();
-  MemoryTrajectory2 uneven({even.read(0), even.read(1), even.read(2), even.read(4)});
+  MemoryTrajectory2 uneven = chosen_frames<2>(even, {0, 1, 2, 4});
   RunMotion motion = motion_of(uneven);
   EXPECT_TRUE(Results({motion_tables(motion), {}}).find("velocity_autocorrelation"));
   EXPECT_FALSE(Results({motion_tables(motion), {}}).find("velocity_spectrum"));

@@ -6,9 +6,12 @@
 #include <limits>
 #include <numbers>
 
-#include "core/random/stream.h"
 #include "core/special_values.h"
+#include "tests/support/chi_squared.h"
+#include "tests/support/particles_of.h"
+#include "tests/support/random_gas.h"
 #include "tests/support/scenes.h"
+#include "tests/support/triangular_lattice.h"
 
 namespace vitrel {
 namespace {
@@ -17,41 +20,21 @@ constexpr double pi = std::numbers::pi;
 
 /// n ellipses at random places and angles; they may overlap.
 Configuration2 gas(std::size_t n, std::uint64_t seed) {
-  Configuration2 c;
-  c.resize(n);
   const double length = std::sqrt(10.0 * static_cast<double>(n));
-  c.box = PeriodicBox<2>(Vec2(length, 1.2 * length));
   Stream draw(seed, Purpose::tests);
-  for (std::size_t i = 0; i < n; ++i) {
+  return random_gas<2>(n, {length, 1.2 * length}, draw, [&](Configuration2& c, std::size_t i) {
     c.shape[i] = of_aspect_ratio(2);
-    c.position[i] = {length * draw.uniform(-0.5, 0.5), 1.2 * length * draw.uniform(-0.5, 0.5)};
     c.angle[i] = draw.uniform(-3 * pi, 3 * pi);
-  }
-  return c;
+  });
 }
 
-/// Columns × (2 half_rows) points of a triangular lattice with unit spacing, stretched along x.
-Configuration2 triangular_lattice(int columns, int half_rows, double stretch) {
-  Configuration2 c;
-  const Vec2 lengths(columns * stretch, half_rows * std::sqrt(3.0));
-  c.box = PeriodicBox<2>(lengths);
-  c.resize(static_cast<std::size_t>(columns) * 2 * half_rows);
-  std::size_t i = 0;
-  for (int row = 0; row < 2 * half_rows; ++row)
-    for (int column = 0; column < columns; ++column, ++i) {
-      c.position[i] =
-          Vec2((column + 0.5 * (row % 2) + 0.1) * stretch, (row + 0.2) * std::sqrt(0.75)) -
-          0.5 * lengths;
-      c.box.wrap(c.position[i], c.image[i]);
-    }
-  return c;
+Configuration2 square_lattice_of_disks(int side) {
+  return square_lattice(side, 0.5, 0, [](std::size_t) { return Ellipse{1, 1}; });
 }
 
 TEST(NematicOrder, IsZeroForCrossedPairsAndForDisks) {
-  Configuration2 state;
-  state.resize(2);
-  EXPECT_EQ(nematic_order(state), 0);
-  state.shape = {{2, 1}, {2, 1}};
+  EXPECT_EQ(nematic_order(particles_of<2>({{1, 1}, {1, 1}})), 0);
+  auto state = particles_of<2>({{2, 1}, {2, 1}});
   state.angle = {0.3, 0.3 + pi / 2};
   EXPECT_NEAR(nematic_order(state), 0, 1e-15);
   state.angle = {0.3, 0.3 + pi};
@@ -59,26 +42,22 @@ TEST(NematicOrder, IsZeroForCrossedPairsAndForDisks) {
 }
 
 TEST(NematicOrder, LeavesRoundParticlesOut) {
-  Configuration2 state;
-  state.resize(3);
-  state.shape = {{2, 1}, {1, 1}, {2, 1}};
+  auto state = particles_of<2>({{2, 1}, {1, 1}, {2, 1}});
   state.angle = {0.4, 0.4 + pi / 2, 0.4};
   EXPECT_NEAR(nematic_order(state), 1, 1e-15);
 }
 
 // ⟨S²⟩ = 1/R for independent angles, with the standard deviation 1/R of an exponential
-// distribution; 400 systems, five standard errors.
+// distribution. √(π/(4R)) is the mean of the same walk's length, with the standard deviation √((1 −
+// π/4)/R); for R = 50 the formula itself is off by 0.1 %. 400 systems, five standard errors.
 TEST(NematicOrder, OfARandomGasIsThatOfARandomWalk) {
-  double sum = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) sum += std::pow(nematic_order(gas(50, seed)), 2);
-  EXPECT_NEAR(50 * sum / 400, 1, 5.0 / 20);
-}
-
-// √(π/(4R)) is the mean of the same walk's length, with the standard deviation √((1 − π/4)/R); five
-// standard errors. For R = 50 the formula itself is off by 0.1 %.
-TEST(NematicOrder, ByChanceIsThatOfARandomGas) {
-  double sum = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) sum += nematic_order(gas(50, seed));
+  double sum = 0, squares = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const double order = nematic_order(gas(50, seed));
+    sum += order;
+    squares += order * order;
+  }
+  EXPECT_NEAR(50 * squares / 400, 1, 5.0 / 20);
   EXPECT_NEAR(sum / 400, nematic_order_by_chance(50, 2), 5 * std::sqrt((1 - pi / 4) / 50 / 400));
 }
 
@@ -140,9 +119,7 @@ TEST(OrientationDistribution, HasTheMomentsOfTheOrder) {
 }
 
 TEST(OrientationDistribution, OfDisksIsEmpty) {
-  Configuration2 c;
-  c.resize(3);
-  EXPECT_TRUE(orientation_distribution(c, 10).empty());
+  EXPECT_TRUE(orientation_distribution(particles_of<2>(std::vector<Ellipse>(3)), 10).empty());
 }
 
 TEST(NematicCorrelation, IsOneWhereAllAreParallel) {
@@ -151,9 +128,8 @@ TEST(NematicCorrelation, IsOneWhereAllAreParallel) {
   const NematicCorrelation g = nematic_correlation(c, 1);
   EXPECT_EQ(g.distance.size(), 22u);  // half of √2000 = 44.7, by 1
   for (std::size_t k = 0; k < g.value.size(); ++k) {
-    if (g.pairs[k] > 0) {
-      EXPECT_NEAR(g.value[k], 1, 1e-10);
-    }
+    if (g.pairs[k] == 0) continue;
+    EXPECT_NEAR(g.value[k], 1, 1e-10);
   }
   EXPECT_EQ(correlation_length(g), std::numeric_limits<double>::infinity());
 }
@@ -185,17 +161,16 @@ TEST(NematicCorrelation, OfACheckerboard) {
 // Each bin scatters by 1/√(2 pairs), so χ² per bin is 1, with standard deviation √(2/bins) — the
 // pairs of a bin are uncorrelated, though not independent. Five standard deviations.
 TEST(NematicCorrelation, OfARandomGasIsZeroWithinItsScatter) {
-  double chi_squared = 0, bins = 0;
+  ChiSquared bins;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const NematicCorrelation g = nematic_correlation(gas(300, seed), 2);
     for (std::size_t k = 0; k < g.value.size(); ++k) {
       if (g.pairs[k] < 20) continue;
-      chi_squared += 2 * static_cast<double>(g.pairs[k]) * g.value[k] * g.value[k];
-      ++bins;
+      bins.add(g.value[k], 1 / std::sqrt(2.0 * static_cast<double>(g.pairs[k])));
     }
   }
-  EXPECT_GT(bins, 250);
-  EXPECT_NEAR(chi_squared / bins, 1, 5 * std::sqrt(2 / bins));
+  EXPECT_GT(bins.values, 250);
+  bins.expect_one(5);
 }
 
 // All pairs nearer than half the box, which the mean number of neighbours knows.
@@ -243,18 +218,15 @@ TEST(CorrelationLength, IsTheFarEndOfTheLastBinAboveOneOverE) {
   EXPECT_EQ(correlation_length(g), std::numeric_limits<double>::infinity());
 }
 
-TEST(HexaticOrder, IsOneOnTheTriangularLattice) {
-  const HexaticOrder order = hexatic_order(triangular_lattice(6, 4, 1));
-  EXPECT_NEAR(order.global, 1, 1e-12);
-  EXPECT_NEAR(order.local, 1, 1e-12);
+void expect_hexatic(const Configuration2& c, double wanted) {
+  const HexaticOrder order = hexatic_order(c);
+  EXPECT_NEAR(order.global, wanted, 1e-12);
+  EXPECT_NEAR(order.local, wanted, 1e-12);
 }
 
-TEST(HexaticOrder, IsZeroOnTheSquareLattice) {
-  const HexaticOrder order = hexatic_order(square_lattice(7, 0.5, 0, [](std::size_t) {
-    return Ellipse{1, 1};
-  }));
-  EXPECT_NEAR(order.global, 0, 1e-12);
-  EXPECT_NEAR(order.local, 0, 1e-12);
+TEST(HexaticOrder, IsOneOnTheTriangularLatticeAndZeroOnTheSquareLattice) {
+  expect_hexatic(triangular_lattice(6, 8, 1), 1);
+  expect_hexatic(square_lattice_of_disks(7), 0);
 }
 
 // The triangular lattice stretched by s along x: neighbours at (±s, 0) and (±s/2, ±h), h = √(3)/2.
@@ -267,16 +239,15 @@ TEST(HexaticOrder, OfAStretchedTriangularLattice) {
     const double along = 2 * y1, oblique = std::hypot(s / 2, y0 - y1);
     const double wanted =
         (2 * along + 4 * oblique * std::cos(6 * std::atan2(h, s / 2))) / (2 * along + 4 * oblique);
-    const HexaticOrder order = hexatic_order(triangular_lattice(8, 5, s));
-    EXPECT_NEAR(order.global, std::abs(wanted), 1e-12) << s;
-    EXPECT_NEAR(order.local, std::abs(wanted), 1e-12) << s;
+    SCOPED_TRACE(s);
+    expect_hexatic(triangular_lattice(8, 10, 1, s), std::abs(wanted));
   }
 }
 
 // Two crystallites turned by 30° against each other would cancel; a small displacement of one
 // particle changes the order only a little, also on the square lattice.
 TEST(HexaticOrder, IsContinuous) {
-  Configuration2 c = square_lattice(6, 0.5, 0, [](std::size_t) { return Ellipse{1, 1}; });
+  Configuration2 c = square_lattice_of_disks(6);
   const double small = 1e-6;
   c.position[7] += Vec2(small, 0.4 * small);
   EXPECT_LT(hexatic_order(c).local, 10 * small);

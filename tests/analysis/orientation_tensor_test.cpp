@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/random/stream.h"
+#include "tests/support/particles_of.h"
 #include "tests/support/solids.h"
 #include "tests/support/statistics.h"
 
@@ -17,12 +18,9 @@ constexpr double pi = std::numbers::pi;
 
 /// Prolate bodies along these directions.
 Configuration3 along(const std::vector<Vec3>& directions) {
-  Configuration3 c;
-  c.resize(directions.size());
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    c.shape[i] = prolate(3);
+  auto c = particles_of<3>(std::vector<Ellipsoid>(directions.size(), prolate(3)));
+  for (std::size_t i = 0; i < c.size(); ++i)
     c.orientation[i] = Quaternion::FromTwoVectors(Vec3::UnitX(), directions[i]);
-  }
   return c;
 }
 
@@ -87,33 +85,23 @@ TEST(OrientationTensor, LeavesOutRoundBodies) {
   EXPECT_TRUE(std::isnan(orientation_tensor(c).ratio()));
 }
 
-/// ρ of packings of randomly turned bodies.
-std::vector<double> isotropic_ratios(std::size_t axes, std::size_t packings) {
+/// As far as a mean of ρ over packings of randomly turned bodies may be off: 2 % of ρ − 1, and four
+/// standard errors.
+void expect_mean(std::size_t axes, std::size_t packings) {
   std::vector<double> ratios;
   for (std::size_t packing = 0; packing < packings; ++packing) {
     Stream draw(7, Purpose::tests, packing);
-    Configuration3 c;
-    c.resize(axes);
-    for (std::size_t i = 0; i < axes; ++i) {
-      c.shape[i] = oblate(4);
-      c.orientation[i] = random_orientation(draw);
-    }
+    auto c = particles_of<3>(std::vector<Ellipsoid>(axes, oblate(4)));
+    for (Quaternion& orientation : c.orientation) orientation = random_orientation(draw);
     ratios.push_back(orientation_tensor(c).ratio());
   }
-  return ratios;
-}
-
-/// As far as a mean of ρ over these packings may be off: 2 % of ρ − 1, and four standard errors.
-void expect_mean(std::size_t axes, std::size_t packings) {
-  const std::vector<double> ratios = isotropic_ratios(axes, packings);
   const Estimate found = estimate(ratios);
   const IsotropicRatio isotropic = isotropic_ratio(axes);
   EXPECT_NEAR(found.mean, isotropic.mean, 0.02 * (isotropic.mean - 1) + 4 * found.error) << axes;
-  const double deviation = found.error * std::sqrt(static_cast<double>(packings));
+  const auto n = static_cast<double>(packings);
+  const double deviation = found.error * std::sqrt(n);
   // A deviation of n values is known to about 1/√(2n).
-  EXPECT_NEAR(deviation / isotropic.standard_deviation, 1,
-              0.05 + 4 / std::sqrt(2.0 * static_cast<double>(packings)))
-      << axes;
+  EXPECT_NEAR(deviation / isotropic.standard_deviation, 1, 0.05 + 4 / std::sqrt(2 * n)) << axes;
 }
 
 TEST(IsotropicRatio, IsThatOfRandomlyTurnedBodies) {

@@ -7,35 +7,25 @@
 #include <set>
 #include <tuple>
 
-#include "core/random/stream.h"
+#include "tests/support/particles_of.h"
+#include "tests/support/random_gas.h"
+#include "tests/support/solids.h"
 
 namespace vitrel {
 namespace {
 
-Vec3 random_vector(Stream& draw) {
+Vec3 normal_vector(Stream& draw) {
   return {draw.normal(), draw.normal(), draw.normal()};
-}
-
-Quaternion random_orientation(Stream& draw) {
-  Quaternion q;
-  q.coeffs() << random_vector(draw), draw.normal();
-  return q.normalized();
 }
 
 /// Ellipsoids anywhere in a box that the longest of them nearly fill; overlaps do not matter here.
 Configuration3 random_solids(std::size_t n, double longest) {
   Stream draw(3, Purpose::tests);
-  Configuration3 packing;
-  packing.box = PeriodicBox<3>(Vec3(2, 3, 2.5));
-  packing.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    packing.position[i] = packing.box.lengths().cwiseProduct(
-        Vec3{draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)});
-    packing.orientation[i] = random_orientation(draw);
-    packing.shape[i] = {
+  return random_gas<3>(n, {2, 3, 2.5}, draw, [&](Configuration3& c, std::size_t i) {
+    c.orientation[i] = random_orientation(draw);
+    c.shape[i] = {
         Vec3{draw.uniform(0.05, longest), draw.uniform(0.05, 0.5), draw.uniform(0.05, 0.5)}};
-  }
-  return packing;
+  });
 }
 
 /// (x − r)ᵀ Σ⁻¹ (x − r), in the body's own axes.
@@ -68,7 +58,7 @@ TEST(HalfExtents, AreTheFarthestPointsOfTheSurface) {
   const Quaternion q = random_orientation(draw);
   Vec3 farthest = Vec3::Zero();
   for (int k = 0; k < 200'000; ++k) {
-    const Vec3 point = q * body.semi_axes.cwiseProduct(random_vector(draw).normalized());
+    const Vec3 point = q * body.semi_axes.cwiseProduct(normal_vector(draw).normalized());
     farthest = farthest.cwiseMax(point);
   }
   const Vec3 extents = half_extents(body, q);
@@ -112,7 +102,7 @@ TEST(MeetsBox, AgreesWithDescentAlongTheCoordinates) {
   for (int k = 0; k < 3000; ++k) {
     const Ellipsoid body{
         Vec3{draw.uniform(0.05, 2), draw.uniform(0.05, 1), draw.uniform(0.05, 0.5)}};
-    const Pose3 pose{1.5 * random_vector(draw), random_orientation(draw)};
+    const Pose3 pose{1.5 * normal_vector(draw), random_orientation(draw)};
     const double least = min_by_descent(body, pose, box);
     EXPECT_GT(std::abs(least - 1), 1e-7) << "undecided";
     EXPECT_EQ(meets_box(body, pose, box), least < 1) << k;
@@ -161,11 +151,7 @@ TEST(BodiesInBox, AreThoseThatHoldPointsOfTheBox) {
 }
 
 TEST(BodiesInBox, ABodyAcrossOppositeFaces) {
-  Configuration3 packing;
-  packing.box = PeriodicBox<3>(Vec3(2, 2, 2));
-  packing.resize(1);
-  packing.shape[0] = {Vec3(1.2, 0.1, 0.1)};
-  const std::vector<BodyInBox> bodies = bodies_in_box(packing);
+  const auto bodies = bodies_in_box(particles_of<3>({{Vec3(1.2, 0.1, 0.1)}}, {2, 2, 2}));
   ASSERT_EQ(bodies.size(), 3u);
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(bodies[k].shift, Shift<3>(k - 1, 0, 0));
@@ -176,29 +162,25 @@ TEST(BodiesInBox, ABodyAcrossOppositeFaces) {
 // A sphere of radius 1 in a box of 10: seen from a face, an edge or a corner it is as far from touching as
 // its distance says.
 TEST(GrazingDistance, OfASphereFollowsFromItsPlace) {
-  Configuration3 packing;
-  packing.box = PeriodicBox<3>(Vec3(10, 10, 10));
-  packing.resize(1);
-  packing.position[0] = {4.7, 0, 0};
-  EXPECT_NEAR(grazing_distance(packing, Vec3::Zero()), 0.7, 1e-14);
-  EXPECT_NEAR(grazing_distance(packing, Vec3(0.8, 0, 0)), 0.1, 1e-14);
-  packing.position[0] = {4.4, -4.2, 0};
-  EXPECT_NEAR(grazing_distance(packing, Vec3::Zero()), 0, 1e-14) << "0.6² + 0.8² = 1";
-  packing.position[0] = {4.9, 4.2, -4.7};
+  const auto distance = [](const Vec3& place, const Vec3& cut = Vec3::Zero()) {
+    auto sphere = particles_of<3>({{Vec3::Ones()}}, {10, 10, 10});
+    sphere.position[0] = place;
+    return grazing_distance(sphere, cut);
+  };
+  EXPECT_NEAR(distance({4.7, 0, 0}), 0.7, 1e-14);
+  EXPECT_NEAR(distance({4.7, 0, 0}, {0.8, 0, 0}), 0.1, 1e-14);
+  EXPECT_NEAR(distance({4.4, -4.2, 0}), 0, 1e-14) << "0.6² + 0.8² = 1";
   // Faces: 0.9, 0.2, 0.7; edges and the corner: √0.65, √0.10, √0.73 and √0.74.
-  EXPECT_NEAR(grazing_distance(packing, Vec3::Zero()), 1 - std::sqrt(0.74), 1e-14);
-  packing.position[0].setZero();
-  EXPECT_EQ(grazing_distance(packing, Vec3::Zero()), 1);
+  EXPECT_NEAR(distance({4.9, 4.2, -4.7}), 1 - std::sqrt(0.74), 1e-14);
+  EXPECT_EQ(distance({0, 0, 0}), 1);
 }
 
 TEST(CleanCut, IsFartherFromGrazingThanRandomTranslations) {
   Configuration3 packing = random_solids(20, 0.5);
   const double chosen = grazing_distance(packing, clean_cut(packing));
   Stream draw(11, Purpose::tests);
-  std::vector<double> random;
   for (int k = 0; k < 100; ++k)
-    random.push_back(grazing_distance(packing, 10 * random_vector(draw)));
-  EXPECT_GT(chosen, *std::ranges::max_element(random));
+    EXPECT_GT(chosen, grazing_distance(packing, 10 * normal_vector(draw)));
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 
 #include "analysis/observables/frame_observable.h"
 #include "analysis/statistics/blocking.h"
 #include "analysis/structure/pair_correlation.h"
-#include "core/random/stream.h"
+#include "tests/support/random_gas.h"
 #include "tests/support/scenes.h"
+#include "tests/support/tables.h"
 
 namespace vitrel {
 namespace {
@@ -29,18 +29,15 @@ void make_rotor(Configuration3& c, std::size_t i, Stream& draw) {
 template <int Dim>
 std::vector<Configuration<Dim>> gases(std::size_t frames, bool round) {
   Stream draw(8, Purpose::tests);
-  std::vector<Configuration<Dim>> all(frames);
+  std::vector<Configuration<Dim>> all;
   for (std::size_t k = 0; k < frames; ++k) {
-    Configuration<Dim>& c = all[k];
-    c.resize(80);
-    c.time = static_cast<double>(k);
-    c.box = PeriodicBox<Dim>(Vec<Dim>::Constant(20));
-    c.species_names = {"big", "none", "one", "small-1"};
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      for (double& x : c.position[i]) x = draw.uniform(-10, 10);
+    const Vec<Dim> lengths = Vec<Dim>::Constant(20);
+    all.push_back(random_gas(80, lengths, draw, [&](Configuration<Dim>& c, std::size_t i) {
       c.species[i] = i == 0 ? 2 : i % 2 ? 0 : 3;
       if (!round) make_rotor(c, i, draw);
-    }
+    }));
+    all.back().time = static_cast<double>(k);
+    all.back().species_names = {"big", "none", "one", "small-1"};
   }
   return all;
 }
@@ -51,12 +48,6 @@ std::vector<Table> pair_tables(const std::vector<Configuration<Dim>>& frames) {
   StructureOptions options;
   options.pairs.distance_step = 0.5;
   return measure_frames(trajectory, options, 2, {}, {"pair_correlation"}).tables;
-}
-
-std::vector<std::string> column_names(const Table& table) {
-  std::vector<std::string> names;
-  for (const Column& column : table.columns) names.push_back(column.name);
-  return names;
 }
 
 TEST(PairCorrelationObservable, HasColumnsOfThePairsOfSpeciesThatThereAre) {
@@ -128,7 +119,7 @@ template <int Dim>
 std::vector<std::string> drawn(const std::string& name) {
   const std::vector<Observable> all = frame_observables(Dim);
   const std::vector<Table> tables = pair_tables(gases<Dim>(2, false));
-  const Table& table = *std::ranges::find(tables, name, &Table::name);
+  const Table& table = named(tables, name);
   const Chart& chart = find(all, name)->charts.at(0);
   std::vector<std::string> labels;
   for (const Curve& curve : chart.curves) {

@@ -1,6 +1,6 @@
 #include "analysis/dynamics/relaxation.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
@@ -9,14 +9,18 @@
 #include "core/error.h"
 #include "core/random/stream.h"
 #include "core/special_values.h"
+#include "tests/support/coverage.h"
 
 namespace vitrel {
 namespace {
 
+using std::numbers::e;
+using testing::HasSubstr;
+
 std::vector<double> logarithmic_times(double from, double to, int per_decade) {
+  const auto at = [&](int k) { return from * std::pow(10, static_cast<double>(k) / per_decade); };
   std::vector<double> time;
-  for (int k = 0; from * std::pow(10, static_cast<double>(k) / per_decade) <= to; ++k)
-    time.push_back(from * std::pow(10, static_cast<double>(k) / per_decade));
+  for (int k = 0; at(k) <= to; ++k) time.push_back(at(k));
   return time;
 }
 
@@ -39,7 +43,7 @@ TEST(RelaxationTime, OfStretchedExponentials) {
           relaxation_time(decay(logarithmic_times(0.013, 1e4, per_decade), 0.01,
                                 [&](double t) { return std::exp(-std::pow(t / 17, beta)); }));
       EXPECT_NEAR(tau.value, 17, 0.002 * 17) << beta << ' ' << per_decade;
-      EXPECT_NEAR(tau.error, 0.01 * 17 * std::numbers::e / beta, 0.02 * tau.error);
+      EXPECT_NEAR(tau.error, 0.01 * 17 * e / beta, 0.02 * tau.error);
       EXPECT_EQ(tau.reason, "");
     }
   }
@@ -49,7 +53,7 @@ TEST(RelaxationTime, OfStretchedExponentials) {
 TEST(RelaxationTime, BetweenTwoPointsIsInterpolatedInLogarithmicTime) {
   const RelaxationTime tau = relaxation_time({{1, 4}, {0.5, 0.25}, {0.01, 0.03}});
   const double slope = -0.25 / std::log(4);
-  EXPECT_NEAR(tau.value, std::exp((1 / std::numbers::e - 0.5) / slope), 1e-12);
+  EXPECT_NEAR(tau.value, std::exp((1 / e - 0.5) / slope), 1e-12);
   const double error = 0.01 + 0.02 * std::log(tau.value) / std::log(4);
   EXPECT_NEAR(tau.error, tau.value * error / -slope, 1e-12);
 }
@@ -78,14 +82,13 @@ Decay rotors(int n, std::uint64_t seed) {
 
 // A count within 3 binomial standard deviations of 68.27 and 95.4: false-alarm rate 0.3 % each.
 TEST(RelaxationTime, ErrorsCoverTheTruth) {
-  int one = 0, two = 0;
+  Coverage coverage;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const RelaxationTime tau = relaxation_time(rotors(400, seed));
-    one += std::abs(tau.value - 20) < tau.error;
-    two += std::abs(tau.value - 20) < 2 * tau.error;
+    coverage.count(tau.value - 20, tau.error);
   }
-  EXPECT_NEAR(one, 68.27, 3 * 4.65);
-  EXPECT_NEAR(two, 95.4, 3 * 2.1);
+  expect_binomial(coverage.one, 100, 0.6827, 3);
+  expect_binomial(coverage.two, 100, 0.954, 3);
 }
 
 TEST(RelaxationTime, WithoutOneTheReasonIsGiven) {
@@ -94,14 +97,14 @@ TEST(RelaxationTime, WithoutOneTheReasonIsGiven) {
   EXPECT_TRUE(std::isnan(late.value) && std::isnan(late.error));
   EXPECT_EQ(late.least, 90);
   EXPECT_TRUE(std::isnan(late.most));
-  EXPECT_NE(late.reason.find("still 0.41"), std::string::npos) << late.reason;
+  EXPECT_THAT(late.reason, HasSubstr("still 0.41"));
   const RelaxationTime early = relaxation_time(decay({110, 200}, 0.01, exponential));
   EXPECT_TRUE(std::isnan(early.value) && std::isnan(early.least));
   EXPECT_EQ(early.most, 110);
-  EXPECT_NE(early.reason.find("sample more often"), std::string::npos);
+  EXPECT_THAT(early.reason, HasSubstr("sample more often"));
   const RelaxationTime back = relaxation_time({{1, 2, 4}, {0.5, 0.3, 0.6}, {0.01, 0.01, 0.01}});
   EXPECT_TRUE(std::isnan(back.value));
-  EXPECT_NE(back.reason.find("returns"), std::string::npos);
+  EXPECT_THAT(back.reason, HasSubstr("returns"));
 }
 
 TEST(RelaxationTime, UnknownErrorsOfTheCurveGiveNoError) {
@@ -126,12 +129,11 @@ TEST(ConnectedPart, TakesOffThePlateauOfANematic) {
   EXPECT_TRUE(std::isnan(relaxation_time(whole).value));
   const RelaxationTime tau = relaxation_time(connected_part(whole, {p, 0, 0}));
   EXPECT_NEAR(tau.value, 7, 0.002 * 7);
-  EXPECT_NEAR(tau.error, 0.01 / 0.36 * 7 * std::numbers::e, 0.02 * tau.error);
+  EXPECT_NEAR(tau.error, 0.01 / 0.36 * 7 * e, 0.02 * tau.error);
   const RelaxationTime unsure = relaxation_time(connected_part(whole, {p, 0.02, 8}));
   EXPECT_EQ(unsure.value, tau.value);
-  const double of_plateau = 0.02 * (1 - 1 / std::numbers::e);
-  EXPECT_NEAR(unsure.error, std::hypot(0.01, of_plateau) / 0.36 * 7 * std::numbers::e,
-              0.02 * unsure.error);
+  const double of_plateau = 0.02 * (1 - 1 / e);
+  EXPECT_NEAR(unsure.error, std::hypot(0.01, of_plateau) / 0.36 * 7 * e, 0.02 * unsure.error);
 }
 
 }  // namespace

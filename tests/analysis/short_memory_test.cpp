@@ -8,6 +8,7 @@
 #include "analysis/statistics/gsl_errors.h"
 #include "analysis/structure/density_grid.h"
 #include "analysis/structure/two_point.h"
+#include "tests/support/particles_of.h"
 
 /// FFTW's allocations and plans are counted; a chosen one returns nothing.
 namespace {
@@ -80,10 +81,7 @@ TEST(ShortMemory, OfDensityGrids) {
 }
 
 TEST(ShortMemory, OfTwoPointGrids) {
-  Configuration3 sphere;
-  sphere.resize(1);
-  sphere.shape[0] = {Vec3(1, 1, 1)};
-  sphere.box = PeriodicBox<3>(Vec3(4, 4, 4));
+  const auto sphere = particles_of<3>({{Vec3(1, 1, 1)}}, {4, 4, 4});
   expect_reported([&] { TwoPointGrid(sphere).measure(sphere); });
 }
 

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/random/stream.h"
+#include "tests/support/chi_squared.h"
 #include "tests/support/fluids.h"
 #include "tests/support/mixtures.h"
+#include "tests/support/random_gas.h"
 #include "tests/support/scenes.h"
-#include "tests/support/statistics.h"
+#include "tests/support/triangular_lattice.h"
 
 namespace vitrel {
 namespace {
@@ -19,19 +20,15 @@ constexpr double pi = std::numbers::pi;
 /// Two species, every third particle of the second, at random places; in the plane with random angles.
 template <int Dim>
 Configuration<Dim> gas(std::size_t n, const Vec<Dim>& lengths, std::uint64_t seed) {
-  Configuration<Dim> c;
-  c.resize(n);
-  c.box = PeriodicBox<Dim>(lengths);
-  c.species_names = {"A", "B"};
   Stream draw(seed, Purpose::tests);
-  for (std::size_t i = 0; i < n; ++i) {
-    c.species[i] = i % 3 == 0;
-    for (int k = 0; k < Dim; ++k) c.position[i][k] = lengths[k] * draw.uniform(-0.5, 0.5);
+  auto c = random_gas<Dim>(n, lengths, draw, [&](Configuration<Dim>& gas, std::size_t i) {
+    gas.species[i] = i % 3 == 0;
     if constexpr (Dim == 2) {
-      c.shape[i] = of_aspect_ratio(2);
-      c.angle[i] = draw.uniform(-pi, pi);
+      gas.shape[i] = of_aspect_ratio(2);
+      gas.angle[i] = draw.uniform(-pi, pi);
     }
-  }
+  });
+  c.species_names = {"A", "B"};
   return c;
 }
 
@@ -54,8 +51,8 @@ void expect_same_within_bound(const Configuration<Dim>& c, const ShellOptions& o
   for (std::size_t k = 0; k < exact.q.size(); ++k) {
     if (exact.modes[k] == 0) continue;
     EXPECT_NEAR(fast.total[k], exact.total[k], bound(n, n, exact.total[k], exact.total[k]));
+    // Both fields have Σ|w| ≤ R, and |c| + |s| ≤ √2 √(|c|² + |s|²).
     if (!exact.orientation.empty()) {
-      // Both fields have Σ|w| ≤ R, and |c| + |s| ≤ √2 √(|c|² + |s|²).
       EXPECT_NEAR(fast.orientation[k], exact.orientation[k],
                   2 * bound(n, n, exact.orientation[k], exact.orientation[k]));
     }
@@ -82,32 +79,25 @@ TEST(StructureFactor, IsThatOfDirectSumsForFewParticles) {
 TEST(StructureFactor, ByTransformIsThatOfTheDirectSumInAFluid) {
   expect_same_within_bound(swollen_fluid(300, 3, 0.6), {});
   expect_same_within_bound(swollen_fluid(200, 1.5, 0.5, 0.2), {});
-}
-
-TEST(StructureFactor, ByTransformIsThatOfTheDirectSumInMixtures) {
   for (const Mixture& mixture : mixtures()) {
     SCOPED_TRACE(mixture.name);
     expect_same_within_bound(inserted_mixture(mixture), {20, 0.3});
   }
 }
 
-// 120² q²: the box is folded twice, or along its longer side only.
+// 120² q²: the box is folded twice, or along its longer side only. In space the second and the
+// third box are folded, along all sides or the two longer.
 TEST(StructureFactor, ByTransformIsThatOfTheDirectSumInFoldedBoxes) {
   expect_same_within_bound(gas<2>(300, {120, 120}, 1), {25, 0.2});
   expect_same_within_bound(gas<2>(100, {700, 30}, 2), {20, 0.5});
-}
-
-// The second and the third box are folded, along all sides or the two longer.
-TEST(StructureFactor, ByTransformIsThatOfTheDirectSumInThreeDimensions) {
   expect_same_within_bound(gas<3>(200, {9, 11, 10}, 1), {6, 0.2});
   expect_same_within_bound(gas<3>(100, {25, 25, 25}, 2), {9, 0.3});
   expect_same_within_bound(gas<3>(100, {60, 12, 40}, 3), {8, 0.4});
 }
 
 TEST(StructureFactor, OfALatticeInStepWithTheGridKeepsToTheBound) {
-  const Configuration2 c =
-      square_lattice(16, 0.5, 0.2, [](std::size_t) { return of_aspect_ratio(1.2); });
-  expect_same_within_bound(c, {10, 0.05});
+  expect_same_within_bound(
+      square_lattice(16, 0.5, 0.2, [](std::size_t) { return of_aspect_ratio(1.2); }), {10, 0.05});
 }
 
 // Folding leaves out wave vectors, but those it takes are wave vectors of the box: every level's are
@@ -178,15 +168,8 @@ TEST(StructureFactor, OfAFaceCentredCubicLatticeHasPeaksOfHeightN) {
 // Rows of spacing d = 2.1, h = √3 d/2 apart: reciprocal vectors (2π/d)(1, −1/√3) and (2π/d)(0, 2/√3);
 // rings at √1, 3, 4, 7, 9 and 12 times the first, 4π/(√3 d) = 3.45.
 TEST(StructureFactor, OfATriangularLatticeHasPeaksOfHeightN) {
-  const double d = 2.1, h = std::sqrt(0.75) * d;
-  Configuration2 c;
-  c.resize(1024);  // 32²
-  c.box = PeriodicBox<2>(Vec2(32 * d, 32 * h));
-  for (int row = 0, i = 0; row < 32; ++row)
-    for (int column = 0; column < 32; ++column, ++i) {
-      c.position[i] = Vec2((column + 0.5 * (row % 2)) * d, row * h) - 0.5 * c.box.lengths();
-      c.box.wrap(c.position[i], c.image[i]);
-    }
+  const double d = 2.1;
+  const Configuration2 c = triangular_lattice(32, 32, d);
   const double q = 2 * pi / d;
   const double third = 1 / std::sqrt(3.0);
   expect_peaks<2>(c, q * (Mat2() << 1, 0, -third, 2 * third).finished(), 6);
@@ -198,29 +181,21 @@ TEST(StructureFactor, OfATriangularLatticeHasPeaksOfHeightN) {
 template <int Dim>
 void expect_one_in_a_gas(const Vec<Dim>& lengths, const ShellOptions& options) {
   const ScatteringShells<Dim> shells(lengths, options);
-  // Quantity, shell, gas; the last quantity in two dimensions only.
-  std::vector<std::vector<std::vector<double>>> values(Dim == 2 ? 5 : 4);
+  std::vector<BinnedValues> quantities(Dim == 2 ? 5 : 4);
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const StructureFactor s = shells.structure_factor(gas<Dim>(150, lengths, seed));
     const std::vector<double>* rows[5] = {&s.total, &s.partial.front(), &s.partial[1],
                                           &s.partial[2], &s.orientation};
-    for (std::size_t m = 0; m < values.size(); ++m) {
-      values[m].resize(s.q.size());
-      for (std::size_t k = 0; k < s.q.size(); ++k) values[m][k].push_back(rows[m]->at(k));
+    for (std::size_t m = 0; m < quantities.size(); ++m) {
+      quantities[m].add(*rows[m]);
+      EXPECT_TRUE(std::isnan(rows[m]->at(0)));  // the first shell has no wave vector
     }
   }
-  for (std::size_t m = 0; m < values.size(); ++m) {
-    double chi_squared = 0;
-    int counted = 0;
-    for (const std::vector<double>& shell : values[m]) {
-      const Estimate mean = estimate(shell);
-      if (std::isnan(mean.mean)) continue;
-      chi_squared += std::pow((mean.mean - (m == 2 ? 0 : 1)) / mean.error, 2);
-      ++counted;
-    }
-    EXPECT_GT(counted, 20);
-    EXPECT_NEAR(chi_squared / counted, 1, 6 * std::sqrt(2.0 / counted)) << m;
-    EXPECT_TRUE(std::isnan(values[m][0][0]));  // the first shell has no wave vector
+  for (std::size_t m = 0; m < quantities.size(); ++m) {
+    SCOPED_TRACE(m);
+    const ChiSquared chi = quantities[m].chi_squared(m == 2 ? 0 : 1);
+    EXPECT_GT(chi.values, 20);
+    chi.expect_one(6);
   }
 }
 
@@ -235,16 +210,16 @@ template <int Dim>
 void expect_one_in_a_dilute_gas(double side) {
   const Configuration<Dim> c = gas<Dim>(400, Vec<Dim>::Constant(side), 1);
   const StructureFactor s = ScatteringShells<Dim>(c.box.lengths(), {}).structure_factor(c);
-  double vectors = 0, shells = 0, chi_squared = 0;
+  double vectors = 0;
+  ChiSquared shells;
   for (std::size_t k = 0; k < s.q.size(); ++k) {
     if (s.modes[k] == 0) continue;
-    ++shells;
     vectors += s.modes[k];
-    chi_squared += s.modes[k] * std::pow(s.total[k] - 1, 2) / (1 - 1 / 400.0);
+    shells.add(s.total[k] - 1, std::sqrt((1 - 1 / 400.0) / s.modes[k]));
   }
-  EXPECT_GT(shells, 115) << side;
+  EXPECT_GT(shells.values, 115) << side;
   EXPECT_LT(vectors, 150'000) << side;
-  EXPECT_NEAR(chi_squared, shells, 6 * std::sqrt(2 * shells)) << side;
+  shells.expect_one(6);
 }
 
 // φ = 5 × 10⁻⁴ and 5 × 10⁻⁸: in the plane there are 1.4 × 10⁷ and 1.4 × 10¹¹ wave vectors.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/trajectory.h"
+#include "tests/support/even_steps.h"
 
 namespace vitrel {
 namespace {
@@ -16,13 +17,6 @@ using Times = std::vector<double>;
 /// As a program writes them that keeps single precision.
 Times rounded(Times times) {
   for (double& time : times) time = static_cast<float>(time);
-  return times;
-}
-
-Times even_times(std::size_t count, double interval, double start = 0) {
-  Times times;
-  for (std::size_t k = 0; k < count; ++k)
-    times.push_back(start + interval * static_cast<double>(k));
   return times;
 }
 
@@ -45,7 +39,7 @@ std::size_t pairs_apart(const Times& times, double unit, long units) {
 
 TEST(TimeAxis, RoundingToSinglePrecisionLeavesTimesEven) {
   for (const double start : {0.0, -300.0, 1000.0}) {
-    const Times exact = even_times(5001, 0.1, start);
+    const Times exact = even_steps(start, 0.1, 5001);
     const std::vector<Lag> lags = time_axis(rounded(exact));
     const std::vector<Lag> expected = time_axis(exact);
     ASSERT_EQ(lags.size(), expected.size()) << start;
@@ -58,12 +52,12 @@ TEST(TimeAxis, RoundingToSinglePrecisionLeavesTimesEven) {
 }
 
 TEST(TimeAxis, TimesThatAreOffByMoreThanRoundingAreNotEven) {
-  Times times = even_times(1001, 0.1);
+  Times times = even_steps(0, 0.1, 1001);
   times[500] += 0.9 * 100 * 0x1p-23;
   EXPECT_TRUE(evenly_spaced(times));
   times[500] += 0.3 * 100 * 0x1p-23;
   EXPECT_FALSE(evenly_spaced(times));
-  times = even_times(1001, 0.1);
+  times = even_steps(0, 0.1, 1001);
   times.erase(times.begin() + 500);
   EXPECT_FALSE(evenly_spaced(times));
   // So late that single precision could not tell the frames apart.
@@ -135,7 +129,7 @@ TEST(TimeAxis, PowersOfTwoHaveTwoOrigins) {
 TEST(TimeAxis, TheFirstFrameMayBeTheOnlyOrigin) {
   const TimeAxisOptions options{.longest_lag = 1, .only_first_origin = true};
   const Times uneven = cycles(20, 1);
-  for (const Times& times : {even_times(300, 0.1), uneven}) {
+  for (const Times& times : {even_steps(0, 0.1, 300), uneven}) {
     const std::vector<Lag> lags = time_axis(times, options);
     EXPECT_GT(lags.size(), 40u);
     for (const Lag& lag : lags) {
@@ -215,14 +209,14 @@ TEST(TimeAxis, AnIntervalInDoubtTakesOnlyTheLagsThatSpanIt) {
   EXPECT_EQ(TrajectoryPart<2>(trajectory, 3, 9).doubtful_frames(), (std::vector<std::size_t>{1}));
   DoubtfulTrajectory all({0, 1, 2, 4}, {1, 2, 3});
   EXPECT_TRUE(time_axis_of_motion(all).empty());
-  DoubtfulTrajectory even(even_times(20, 1), {7});
+  DoubtfulTrajectory even(even_steps(0, 1, 20), {7});
   EXPECT_EQ(time_axis_of_motion(even).size(), time_axis(even.times()).size());
 }
 
 // From 1 to 1000 steps nine factors of 10^(1/3); the next longer lag there is is taken, which above 100 steps may be
 // farther by one of 50 per decade. All lags have the origins 0, 16, 32 …
 TEST(TimeAxis, FewLagsAreLogarithmicallySpacedAndShareOrigins) {
-  DoubtfulTrajectory run(even_times(2001, 1), {});
+  DoubtfulTrajectory run(even_steps(0, 1, 2001), {});
   const std::vector<Lag> lags = few_lags_of_motion(run, {});
   ASSERT_EQ(lags.size(), 10u);
   for (std::size_t k = 0; k < 10; ++k) {

@@ -5,18 +5,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/particles_of.h"
 #include "tests/support/solids.h"
 
 namespace vitrel {
 namespace {
 
 Configuration3 alone(const Ellipsoid& shape, const Vec3& lengths) {
-  Configuration3 c;
-  c.resize(1);
-  c.shape[0] = shape;
-  c.box = PeriodicBox<3>(lengths);
+  auto c = particles_of<3>({shape}, lengths);
   c.position[0] = Vec3(0.1, -0.2, 0.3);
   return c;
+}
+
+/// The share of a unit sphere that a copy shifted by x overlaps.
+double overlap(double x) {
+  return x < 2 ? 1 - 0.75 * x + x * x * x / 16 : 0;
 }
 
 // One sphere of radius 1, alone up to r = 3 in a box of sides 5 and more: S₂ = L = φ (1 − 3r/4 + r³/16). About 270 points
@@ -29,7 +32,7 @@ TEST(TwoPoint, OfASphereHasAClosedForm) {
   EXPECT_EQ(found.distance[0], 0);
   for (std::size_t k = 0; k < found.distance.size(); ++k) {
     const double r = found.distance[k];
-    const double truth = r < 2 ? phi * (1 - 0.75 * r + r * r * r / 16) : 0;
+    const double truth = phi * overlap(r);
     EXPECT_NEAR(found.probability[k], truth, 0.01 * phi) << r;
     for (const std::vector<double>& path : found.lineal_path) EXPECT_NEAR(path[k], truth, 1e-14);
   }
@@ -37,16 +40,13 @@ TEST(TwoPoint, OfASphereHasAClosedForm) {
 
 // Along its axis k, an ellipsoid and its copy shifted by r overlap like unit spheres at the distance r/a_k.
 TEST(TwoPoint, LinealPathEndsWithTheLongestChord) {
-  Configuration3 c = alone({Vec3(3, 1, 0.5)}, {9, 9, 9});
+  const Vec3 axes(3, 1, 0.5);
+  const Configuration3 c = alone({axes}, {9, 9, 9});
   const double phi = packing_fraction(c);
   const TwoPointStatistics found = TwoPointGrid(c).measure(c);
-  const double axes[] = {3, 1, 0.5};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t k = 0; k < found.distance.size(); ++k) {
-      const double x = found.distance[k] / axes[axis];
-      EXPECT_NEAR(found.lineal_path[axis][k], x < 2 ? phi * (1 - 0.75 * x + x * x * x / 16) : 0,
-                  1e-14);
-    }
+  for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t k = 0; k < found.distance.size(); ++k)
+      EXPECT_NEAR(found.lineal_path[axis][k], phi * overlap(found.distance[k] / axes[axis]), 1e-14);
 }
 
 bool is_inside(const Configuration3& c, const Vec3& point) {

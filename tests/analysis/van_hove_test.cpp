@@ -6,8 +6,11 @@
 #include <numbers>
 
 #include "analysis/structure/pair_correlation.h"
-#include "core/random/stream.h"
+#include "tests/support/coverage.h"
+#include "tests/support/frames.h"
 #include "tests/support/free_brownian.h"
+#include "tests/support/pairs.h"
+#include "tests/support/random_gas.h"
 
 namespace vitrel {
 namespace {
@@ -17,17 +20,10 @@ constexpr double interval = 0.25;
 /// n particles at random places with random velocities.
 template <int Dim>
 Configuration<Dim> ideal_gas(std::size_t n, const Vec<Dim>& lengths, std::uint64_t seed) {
-  Configuration<Dim> c;
-  c.resize(n);
-  c.species_names = {"A"};
-  c.box = PeriodicBox<Dim>(lengths);
   Stream draw(seed, Purpose::tests);
-  for (std::size_t i = 0; i < n; ++i)
-    for (int d = 0; d < Dim; ++d) {
-      c.position[i][d] = lengths[d] * draw.uniform(-0.5, 0.5);
-      c.velocity[i][d] = draw.normal();
-    }
-  return c;
+  return random_gas(n, lengths, draw, [&](Configuration<Dim>& c, std::size_t i) {
+    for (double& v : c.velocity[i]) v = draw.normal();
+  });
 }
 
 template <int Dim>
@@ -47,29 +43,21 @@ struct VanHove {
 };
 
 template <int Dim>
-MemoryTrajectory<Dim> free_flight(Configuration<Dim> c, std::size_t frames) {
-  std::vector<Configuration<Dim>> all{c};
-  while (all.size() < frames) {
+MemoryTrajectory<Dim> free_flight(const Configuration<Dim>& start, std::size_t frames) {
+  return trajectory_of(frames, start, [](Configuration<Dim>& c, std::size_t k) {
+    if (k == 0) return;
     c.time += interval;
     for (std::size_t i = 0; i < c.size(); ++i) {
       c.position[i] += interval * c.velocity[i];
       c.box.wrap(c.position[i], c.image[i]);
     }
-    all.push_back(c);
-  }
-  return MemoryTrajectory<Dim>(std::move(all));
+  });
 }
 
 /// The share of normal displacements with variance 1 per axis that are shorter than r.
 double share_within(int dimension, double r) {
   if (dimension == 2) return 1 - std::exp(-r * r / 2);
   return std::erf(r / std::sqrt(2)) - std::sqrt(2 / std::numbers::pi) * r * std::exp(-r * r / 2);
-}
-
-double volume_between(int dimension, double inner, double outer) {
-  using std::numbers::pi;
-  return dimension == 2 ? pi * (outer * outer - inner * inner)
-                        : 4 * pi / 3 * (std::pow(outer, 3) - std::pow(inner, 3));
 }
 
 // The variance of displacements is t² kT/m. All origins see the same displacements, so a bin holds a binomial number
@@ -99,25 +87,30 @@ void expect_uniform(const VanHove<Dim>& found, double n, double starts, double d
     for (std::size_t k = 0; k < found.distinct.x.size(); ++k) {
       const double r = found.distinct.x[k];
       const double pairs =
-          starts * (n - 1) / n * density * volume_between(Dim, r - step / 2, r + step / 2);
+          starts * (n - 1) / n * density * volume_between<Dim>(r - step / 2, r + step / 2);
       EXPECT_NEAR(found.distinct.at_lag[l].mean[k], 1, 5 * std::sqrt(2 / pairs)) << r;
     }
 }
 
+/// The distinct part has so many bins of 0.5, up to half the box, and so many particles to start
+/// from.
+template <int Dim>
+void expect_ideal_gas(const Vec<Dim>& lengths, std::uint64_t seed, std::size_t bins,
+                      double starts) {
+  auto trajectory = free_flight<Dim>(ideal_gas<Dim>(2000, lengths, seed), 41);
+  const VanHove<Dim> found(trajectory, {.distance_max = 30, .distance_step = 0.5});
+  ASSERT_EQ(found.lags.front().time, interval);
+  ASSERT_EQ(found.lags.back().time, 5 * interval);
+  expect_gaussian<Dim>(found, 2000, 0.5);
+  ASSERT_EQ(found.distinct.x.size(), bins);
+  expect_uniform<Dim>(found, 2000, starts, 2000 / lengths.prod(), 0.5);
+}
+
+// Within 10 of a particle of the plane are 1257; five lags of about 38 origins need every 29th or
+// so to start from.
 TEST(VanHove, OfAnIdealGasInFreeFlightIsGaussianAndOne) {
-  auto plane = free_flight<2>(ideal_gas<2>(2000, {20, 25}, 1), 41);
-  const VanHove<2> in_plane(plane, {.distance_max = 30, .distance_step = 0.5});
-  ASSERT_EQ(in_plane.lags.front().time, interval);
-  ASSERT_EQ(in_plane.lags.back().time, 5 * interval);
-  expect_gaussian<2>(in_plane, 2000, 0.5);
-  ASSERT_EQ(in_plane.distinct.x.size(), 20u);
-  // Within 10 of a particle are 1257; five lags of about 38 origins need every 29th or so to start from.
-  expect_uniform<2>(in_plane, 2000, 2000 / 31., 4, 0.5);
-  auto space = free_flight<3>(ideal_gas<3>(2000, {9, 10, 11}, 2), 41);
-  const VanHove<3> in_space(space, {.distance_max = 30, .distance_step = 0.5});
-  expect_gaussian<3>(in_space, 2000, 0.5);
-  ASSERT_EQ(in_space.distinct.x.size(), 9u);
-  expect_uniform<3>(in_space, 2000, 2000 / 20., 2000. / 990, 0.5);
+  expect_ideal_gas<2>({20, 25}, 1, 20, 2000 / 31.);
+  expect_ideal_gas<3>({9, 10, 11}, 2, 9, 2000 / 20.);
 }
 
 /// All pairs, nearest images.
@@ -128,8 +121,7 @@ std::vector<double> distinct_counts(const Configuration<Dim>& start, const Confi
   for (std::size_t i = 0; i < start.size(); ++i)
     for (std::size_t j = 0; j < start.size(); ++j) {
       if (i == j) continue;
-      Vec<Dim> d = end.position[j] - start.position[i];
-      d += start.box.translation(start.box.nearest_shift(d));
+      const Vec<Dim> d = to_nearest_image<Dim>(start.box, end.position[j] - start.position[i]);
       const auto bin = static_cast<std::size_t>(d.norm() / step);
       if (bin < bins) ++counts[bin];
     }
@@ -149,7 +141,7 @@ void expect_loop_over_pairs(const Vec<Dim>& lengths) {
   const auto second = distinct_counts(frames[1], frames[2], bins, 0.25);
   for (std::size_t k = 0; k < bins; ++k) {
     const double r = 0.25 * static_cast<double>(k);
-    const double expected = 40 * 39 * volume_between(Dim, r, r + 0.25) / lengths.prod();
+    const double expected = 40 * 39 * volume_between<Dim>(r, r + 0.25) / lengths.prod();
     EXPECT_NEAR(found.distinct.at_lag[0].mean[k], (first[k] + second[k]) / 2 / expected, 1e-12)
         << r;
   }
@@ -186,7 +178,7 @@ TEST(VanHove, OfFrozenParticlesIsThePairCorrelation) {
 // 100 runs; counts within 3.5 binomial standard deviations (4.65), false-alarm rate 0.05 % each. Displacements of
 // Brownian particles are normal with variance free_msd/2 per axis; the middle bins of three lags are compared.
 TEST(VanHove, ErrorBarsCoverTheTruth) {
-  int covered[3] = {};
+  Coverage coverage[3];
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     MemoryTrajectory2 trajectory = free_brownian(ellipses(50), 1001, 700 + seed);
     const VanHove<2> found(trajectory, {.distance_max = 20, .distance_step = 0.1});
@@ -196,15 +188,16 @@ TEST(VanHove, ErrorBarsCoverTheTruth) {
       const double r = 0.1 * static_cast<double>(k);
       const double truth =
           (share_within(2, (r + 0.1) / deviation) - share_within(2, r / deviation)) / 0.1;
-      covered[l] += std::abs(found.self.at_lag[l].mean[k] - truth) < found.self.at_lag[l].error[k];
+      const Averages& self = found.self.at_lag[l];
+      coverage[l].count(self.mean[k] - truth, self.error[k]);
     }
   }
-  for (const int count : covered) EXPECT_NEAR(count, 68.27, 3.5 * 4.65);
+  for (const Coverage& lag : coverage) expect_binomial(lag.one, 100, 0.6827, 3.5);
 }
 
 TEST(VanHove, UnevenTimesHaveNoErrorsAndThreadsDoNotMatter) {
   auto even = free_flight<2>(ideal_gas<2>(30, {9, 9}, 5), 9);
-  MemoryTrajectory2 uneven({even.read(0), even.read(1), even.read(2), even.read(4), even.read(8)});
+  auto uneven = chosen_frames<2>(even, {0, 1, 2, 4, 8});
   const VanHove<2> one(uneven, {}, 1), many(uneven, {}, 4);
   ASSERT_EQ(one.lags.size(), 4u);
   for (std::size_t l = 0; l < 4; ++l) {

@@ -6,6 +6,9 @@
 #include <numbers>
 
 #include "core/random/stream.h"
+#include "tests/support/coverage.h"
+#include "tests/support/frames.h"
+#include "tests/support/particles_of.h"
 #include "tests/support/series.h"
 
 namespace vitrel {
@@ -18,17 +21,21 @@ constexpr double interval = 0.25;
 /// Frames of n particles whose velocities at frame k `set(configuration, k)` gives.
 template <int Dim, class Set>
 MemoryTrajectory<Dim> moving(std::size_t n, std::size_t frames, Set&& set) {
-  Configuration<Dim> c;
-  c.resize(n);
+  auto c = particles_of<Dim>(std::vector<ParticleShape<Dim>>(n), Vec<Dim>::Constant(10));
   c.species_names = {"A"};
-  c.box = PeriodicBox<Dim>(Vec<Dim>::Constant(10));
-  std::vector<Configuration<Dim>> all;
-  for (std::size_t k = 0; k < frames; ++k) {
-    c.time = interval * static_cast<double>(k);
-    set(c, k);
-    all.push_back(c);
-  }
-  return MemoryTrajectory<Dim>(std::move(all));
+  return trajectory_of(frames, c, [&](Configuration<Dim>& frame, std::size_t k) {
+    frame.time = interval * static_cast<double>(k);
+    set(frame, k);
+  });
+}
+
+/// An angular velocity, in space about an axis between two others.
+template <int Dim>
+AngularVelocity<Dim> spin(double omega) {
+  if constexpr (Dim == 2)
+    return omega;
+  else
+    return omega * Vec3(0.6, 0, 0.8);
 }
 
 /// Σ g Δω, the ends halved.
@@ -53,16 +60,12 @@ void expect_line_at_zero(const VelocityCorrelations& found, const VelocityCorrel
 template <int Dim>
 void expect_free_flight() {
   Stream draw(1, Purpose::tests);
-  Configuration<Dim> drawn;
-  drawn.resize(30);
-  for (Vec<Dim>& v : drawn.velocity)
+  std::vector<Vec<Dim>> drawn(30);
+  for (Vec<Dim>& v : drawn)
     for (double& x : v) x = draw.normal();
   auto trajectory = moving<Dim>(30, 41, [&](Configuration<Dim>& c, std::size_t) {
-    c.velocity = drawn.velocity;
-    if constexpr (Dim == 2)
-      c.angular_velocity[3] = 0.5;
-    else
-      c.angular_velocity[3] = Vec3(0.3, 0, 0.4);
+    c.velocity = drawn;
+    c.angular_velocity[3] = spin<Dim>(0.5);
   });
   const VelocityCorrelations found = velocity_correlations(trajectory);
   EXPECT_EQ(found.lag.size(), 21u);
@@ -84,25 +87,20 @@ constexpr double rate = 0.2 / interval;
 template <int Dim>
 MemoryTrajectory<Dim> ornstein_uhlenbeck(std::size_t n, std::size_t frames, std::uint64_t seed) {
   Stream draw(seed, Purpose::tests);
-  auto trajectory = moving<Dim>(n, frames, [](Configuration<Dim>&, std::size_t) {});
-  std::vector<Configuration<Dim>> all;
-  for (std::size_t k = 0; k < frames; ++k) all.push_back(trajectory.read(k));
   const auto series = [&](double times) {
     return autoregressive_series(frames, std::exp(-times * rate * interval), draw);
   };
+  std::vector<std::vector<double>> velocity, omega;
   for (std::size_t i = 0; i < n; ++i) {
-    for (int d = 0; d < Dim; ++d) {
-      const std::vector<double> v = series(1);
-      for (std::size_t k = 0; k < frames; ++k) all[k].velocity[i][d] = 3 * v[k];
-    }
-    const std::vector<double> omega = series(2);
-    for (std::size_t k = 0; k < frames; ++k)
-      if constexpr (Dim == 2)
-        all[k].angular_velocity[i] = omega[k];
-      else
-        all[k].angular_velocity[i] = Vec3(0, omega[k], 0);
+    for (int d = 0; d < Dim; ++d) velocity.push_back(series(1));
+    omega.push_back(series(2));
   }
-  return MemoryTrajectory<Dim>(std::move(all));
+  return moving<Dim>(n, frames, [&](Configuration<Dim>& c, std::size_t k) {
+    for (std::size_t i = 0; i < n; ++i) {
+      for (int d = 0; d < Dim; ++d) c.velocity[i][d] = 3 * velocity[i * Dim + d][k];
+      c.angular_velocity[i] = spin<Dim>(omega[i][k]);
+    }
+  });
 }
 
 double lorentzian(double gamma, double omega) {
@@ -159,7 +157,7 @@ TEST(VelocityCorrelation, OfAnOrnsteinUhlenbeckProcessIsExponentialAndItsSpectru
 // sum over the exact C.
 TEST(VelocityCorrelation, ErrorBarsCoverTheTruth) {
   const std::size_t places[] = {1, 4, 20};
-  int correlation[3] = {}, spectrum[3] = {};
+  Coverage correlation[3], spectrum[3];
   const double c = std::exp(-rate * interval);
   const auto density = [&](std::size_t j) {
     double sum = 1;
@@ -173,14 +171,14 @@ TEST(VelocityCorrelation, ErrorBarsCoverTheTruth) {
     const VelocityCorrelation found = velocity_correlations(trajectory).translation;
     for (std::size_t p = 0; p < 3; ++p) {
       const std::size_t k = places[p];
-      correlation[p] +=
-          std::abs(found.correlation.value[k] - std::pow(c, k)) < found.correlation.error[k];
-      spectrum[p] += std::abs(found.spectrum.mean[k] - density(k)) < found.spectrum.error[k];
+      correlation[p].count(found.correlation.value[k] - std::pow(c, k), found.correlation.error[k]);
+      spectrum[p].count(found.spectrum.mean[k] - density(k), found.spectrum.error[k]);
     }
   }
   for (std::size_t p = 0; p < 3; ++p) {
-    EXPECT_NEAR(correlation[p], 68.27, 3.5 * 4.65) << "lag " << places[p];
-    EXPECT_NEAR(spectrum[p], 68.27, 3.5 * 4.65) << "frequency " << places[p];
+    SCOPED_TRACE(places[p]);
+    expect_binomial(correlation[p].one, 100, 0.6827, 3.5);
+    expect_binomial(spectrum[p].one, 100, 0.6827, 3.5);
   }
 }
 
@@ -202,9 +200,7 @@ TEST(VelocityCorrelation, WeighsParticlesWithTheSquaresOfTheirVelocities) {
 
 TEST(VelocityCorrelation, OfUnevenTimesHasNoSpectrum) {
   auto even = ornstein_uhlenbeck<2>(20, 9, 3);
-  std::vector<Configuration2> frames;
-  for (const std::size_t k : {0, 1, 2, 4, 8}) frames.push_back(even.read(k));
-  MemoryTrajectory2 uneven(frames);
+  auto uneven = chosen_frames<2>(even, {0, 1, 2, 4, 8});
   const VelocityCorrelations found = velocity_correlations(uneven);
   EXPECT_EQ(found.lag,
             (std::vector<double>{0, interval, 2 * interval, 4 * interval, 8 * interval}));
@@ -213,8 +209,8 @@ TEST(VelocityCorrelation, OfUnevenTimesHasNoSpectrum) {
   EXPECT_TRUE(found.translation.spectrum.mean.empty());
   double product = 0, square = 0;
   for (std::size_t i = 0; i < 20; ++i) {
-    product += frames[0].velocity[i].dot(frames[4].velocity[i]);
-    square += frames[0].velocity[i].squaredNorm();
+    product += even.read(0).velocity[i].dot(even.read(8).velocity[i]);
+    square += even.read(0).velocity[i].squaredNorm();
   }
   EXPECT_NEAR(found.translation.correlation.value[4], product / square, 1e-14);
 }

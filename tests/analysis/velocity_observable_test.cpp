@@ -2,10 +2,11 @@
 
 #include <cmath>
 #include <numbers>
-#include <string_view>
 
 #include "analysis/observables/frame_observable.h"
-#include "core/random/stream.h"
+#include "tests/support/frames.h"
+#include "tests/support/random_gas.h"
+#include "tests/support/tables.h"
 
 namespace vitrel {
 namespace {
@@ -14,25 +15,14 @@ namespace {
 template <int Dim, class Component>
 MemoryTrajectory<Dim> moving_gas(std::size_t n, std::size_t frames, Component&& component) {
   Stream draw(1, Purpose::tests);
-  std::vector<Configuration<Dim>> all;
-  for (std::size_t k = 0; k < frames; ++k) {
-    Configuration<Dim> c;
-    c.resize(n);
-    c.species_names = {"A"};
-    c.box = PeriodicBox<Dim>(Vec<Dim>::Constant(10));
-    c.time = static_cast<double>(k);
-    for (std::size_t i = 0; i < n; ++i) {
-      for (double& x : c.position[i]) x = draw.uniform(-5, 5);
-      c.mass[i] = i % 2 ? 1 : 4;
-      for (double& v : c.velocity[i]) v = 100 + component(draw) / std::sqrt(c.mass[i]);
-    }
-    all.push_back(c);
-  }
-  return MemoryTrajectory<Dim>(std::move(all));
-}
-
-const Table& table_of(const std::vector<Table>& tables, std::string_view name) {
-  return *std::ranges::find(tables, name, &Table::name);
+  const auto set = [&](Configuration<Dim>& c, std::size_t i) {
+    c.mass[i] = i % 2 ? 1 : 4;
+    for (double& v : c.velocity[i]) v = 100 + component(draw) / std::sqrt(c.mass[i]);
+  };
+  return trajectory_of(frames, Configuration<Dim>(), [&](auto& frame, std::size_t k) {
+    frame = random_gas<Dim>(n, Vec<Dim>::Constant(10), draw, set);
+    frame.time = static_cast<double>(k);
+  });
 }
 
 double mean_of_column(const Table& table, const std::string& name) {
@@ -45,11 +35,11 @@ double mean_of_column(const Table& table, const std::string& name) {
 TEST(VelocityObservable, OfAMaxwellianIsGaussian) {
   auto trajectory = moving_gas<3>(4000, 20, [](Stream& draw) { return 3 * draw.normal(); });
   const std::vector<Table> tables = measure_frames(trajectory, {}).tables;
-  const Table& velocities = table_of(tables, "velocities");
+  const Table& velocities = named(tables, "velocities");
   EXPECT_EQ(velocities.rows(), 20u);
   EXPECT_NEAR(mean_of_column(velocities, "temperature"), 9, 4 * 9 * std::sqrt(2.0 / 3 / 80'000));
   EXPECT_NEAR(mean_of_column(velocities, "a_2"), 0, 4 * 0.003);
-  const Table& distribution = table_of(tables, "velocity_distribution");
+  const Table& distribution = named(tables, "velocity_distribution");
   const Column& density = *distribution.find("density");
   for (std::size_t k = 0; k < distribution.rows(); ++k) {
     const double c = distribution.columns.front().value[k];
@@ -63,7 +53,7 @@ TEST(VelocityObservable, OfAMaxwellianIsGaussian) {
 TEST(VelocityObservable, SecondSonineCoefficientOfEqualSpeeds) {
   auto trajectory =
       moving_gas<2>(4000, 3, [](Stream& draw) { return draw.uniform(0, 1) < 0.5 ? -1.0 : 1.0; });
-  const Table velocities = table_of(measure_frames(trajectory, {}).tables, "velocities");
+  const Table velocities = named(measure_frames(trajectory, {}).tables, "velocities");
   EXPECT_NEAR(mean_of_column(velocities, "a_2"), 2.0 / 4 - 1, 0.005);
   EXPECT_NEAR(mean_of_column(velocities, "temperature"), 1, 0.005);
 }

@@ -7,22 +7,17 @@
 
 #include "core/random/stream.h"
 #include "core/special_values.h"
+#include "tests/support/even_steps.h"
 
 namespace vitrel {
 namespace {
 
 using Moments = std::vector<std::vector<double>>;
 
-std::vector<double> even_times(std::size_t frames, double interval) {
-  std::vector<double> times;
-  for (std::size_t k = 0; k < frames; ++k) times.push_back(interval * static_cast<double>(k));
-  return times;
-}
-
 // G = 0, 1, 4, 9 and its double: changes over one interval 1, 3, 5, over two 4, 8, over three 9. With 1/(2 V kT) = 1/12
 // the means over both elements are (1 + 9 + 25)/3 · 5/2 · 1/12, (16 + 64)/2 · 5/2 · 1/12 and 81 · 5/2 · 1/12.
 TEST(Viscosity, MomentsByHand) {
-  const Viscosity found = shear_viscosity(even_times(4, 0.5), {{0, 1, 4, 9}, {0, 2, 8, 18}},
+  const Viscosity found = shear_viscosity(even_steps(0, 0.5, 4), {{0, 1, 4, 9}, {0, 2, 8, 18}},
                                           {3, 2, 0.5}, {.longest_lag = 1});
   EXPECT_EQ(found.lag, (std::vector<double>{0.5, 1, 1.5}));
   EXPECT_EQ(found.origins, (std::vector<std::size_t>{3, 2, 1}));
@@ -62,7 +57,7 @@ TEST(Viscosity, OfAStressThatDecaysIsKnown) {
   for (std::uint64_t seed = 1; seed <= runs; ++seed) {
     const Moments moments = {integrated_stress(4000, 0.5, 2 * seed),
                              integrated_stress(4000, 0.5, 2 * seed + 1)};
-    const Viscosity found = shear_viscosity(even_times(4000, 0.5), moments, {4, 0.5, 6});
+    const Viscosity found = shear_viscosity(even_steps(0, 0.5, 4000), moments, {4, 0.5, 6});
     ASSERT_EQ(found.shear.reason, "");
     EXPECT_DOUBLE_EQ(found.shear.from, 6);
     EXPECT_DOUBLE_EQ(found.shear.to, 18);
@@ -80,7 +75,7 @@ TEST(Viscosity, OfAStressThatDecaysIsKnown) {
 }
 
 TEST(Viscosity, IsRefusedWithTheReason) {
-  const std::vector<double> even = even_times(400, 0.5);
+  const std::vector<double> even = even_steps(0, 0.5, 400);
   const Moments moments = {integrated_stress(400, 0.5, 1)};
   const auto reason = [&](const std::vector<double>& times, double relaxation_time) {
     const Viscosity found = shear_viscosity(times, moments, {1, 1, relaxation_time});
