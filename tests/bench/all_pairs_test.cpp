@@ -11,35 +11,26 @@
 #include "core/error.h"
 #include "core/state/check.h"
 #include "edmd/brownian.h"
-#include "tests/support/motion.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/same_motion.h"
 
 namespace vitrel::bench {
 namespace {
 
 Configuration2 ellipses(int side) {
-  return moving(square_lattice(side, 0.5, std::numbers::pi / 4,
-                               [](std::size_t) { return of_aspect_ratio(2); }));
+  return moving(square_lattice(side, 0.5, std::numbers::pi / 4, of_aspect_ratio(2)));
 }
 
-// The two engines round differently, and every collision multiplies what they differ by; the same
-// collisions in the same order keep them together for a while, a single other one parts them at once.
 void expect_same_motion(const Configuration2& start, Asking asking, double collisions_of_each) {
   const auto fast = make_engine(start, {});
   const auto slow = make_all_pairs_engine({{}, asking, nullptr});
-  RunCounters of_fast, of_slow;
-  Configuration2 one = start, two = start;
-  fast->load(start);
-  slow->load(start);
-  const double wanted = 0.5 * collisions_of_each * static_cast<double>(start.size());
-  for (double until = 0.01; static_cast<double>(of_fast.collisions) < wanted; until += 0.01) {
-    advance(*fast, one, until, of_fast);
-    advance(*slow, two, until, of_slow);
-    ASSERT_EQ(of_fast.collisions, of_slow.collisions) << "up to " << until;
-    ASSERT_LT(difference(one, two), 1e-9) << "at " << until;
-  }
-  EXPECT_NEAR(of_slow.virial, of_fast.virial, 1e-8 * std::abs(of_fast.virial));
-  EXPECT_EQ(of_slow.correction_moves, 0u);
+  const SameMotion wanted{
+      .collisions_of_each = collisions_of_each,
+      .interval = 0.01,
+      .largest_difference = 1e-9,
+      .virial = 1e-8,
+  };
+  vitrel::expect_same_motion(start, *fast, *slow, wanted);
 }
 
 class AllPairsProgram : public testing::TestWithParam<Asking> {};
@@ -49,8 +40,7 @@ TEST_P(AllPairsProgram, OfEllipsesMovesAlike) {
 }
 
 TEST_P(AllPairsProgram, OfDisksMovesAlike) {
-  const auto disk = [](std::size_t) { return Ellipse{1, 1}; };
-  expect_same_motion(moving(square_lattice(5, 0.5, 0, disk)), GetParam(), 10);
+  expect_same_motion(moving(lattice_of_disks(5, 0.5)), GetParam(), 10);
 }
 
 TEST_P(AllPairsProgram, OfAMixtureMovesAlike) {
@@ -60,8 +50,7 @@ TEST_P(AllPairsProgram, OfAMixtureMovesAlike) {
 
 // So far apart that the crossing of the box comes long before most collisions.
 TEST_P(AllPairsProgram, OfADiluteGasMovesAlike) {
-  const auto shape = [](std::size_t) { return of_aspect_ratio(3); };
-  expect_same_motion(moving(square_lattice(3, 0.05, 0, shape)), GetParam(), 3);
+  expect_same_motion(moving(square_lattice(3, 0.05, 0, of_aspect_ratio(3))), GetParam(), 3);
 }
 
 TEST_P(AllPairsProgram, StaysHardWithNewVelocities) {

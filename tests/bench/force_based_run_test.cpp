@@ -3,31 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
-#include <numbers>
 #include <set>
 
 #include "bench/baselines/clusterwise_run.h"
 #include "bench/baselines/force_based_run.h"
-#include "core/random/stream.h"
-#include "edmd/run.h"
-#include "edmd/soft/restitution_table.h"
-#include "edmd/soft/soft_contact.h"
 #include "edmd/soft/viscoelastic.h"
-#include "tests/support/scenes.h"
+#include "tests/support/runs.h"
+#include "tests/support/soft_particles.h"
 
 namespace vitrel {
 namespace {
 
-constexpr double until = 1;
+constexpr double end = 1;
 
 Configuration3 gas() {
   Configuration3 c = cubic_lattice(6, simple_cubic, 0.02, Ellipsoid{Vec3::Constant(0.1)});
-  Stream draw(3, Purpose::tests);
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    c.mass[i] = 1140 * 4 * std::numbers::pi / 3 * 1e-3;
-    c.velocity[i] = 1.2 * Vec3{draw.normal(), draw.normal(), draw.normal()};
-  }
+  set_in_motion(c, 3);
   return c;
 }
 
@@ -37,33 +28,19 @@ Configuration2 gas_of_disks() {
     const double radius = std::array{0.1, 0.08, 0.05}[i % 3];
     return Ellipse{radius, radius};
   });
-  Stream draw(4, Purpose::tests);
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    c.mass[i] = 1140 * 4 * std::numbers::pi / 3 * std::pow(c.shape[i].circumradius(), 3);
-    c.velocity[i] = 1.2 * Vec2{draw.normal(), draw.normal()};
-  }
+  set_in_motion(c, 4);
   return c;
 }
 
-template <int Dim>
-RunState<Dim> event_driven(const Configuration<Dim>& start, const EngineOptions& options) {
-  RunState<Dim> state = begin_run(start, 0);
-  RunPlan<Dim> plan;
-  plan.end_time = until;
-  run(state, {options}, plan, {});
-  return state;
-}
-
-EngineOptions soft(const Viscoelastic& force) {
-  EngineOptions options;
-  options.soft_contact = std::make_shared<SoftContactOf<Viscoelastic, IntegratedRestitution>>(
-      force, IntegratedRestitution(form_of<Viscoelastic>()));
+DynamicsOptions soft(const Viscoelastic& force) {
+  DynamicsOptions options;
+  options.engine.soft_contact = integrated_contact(force);
   return options;
 }
 
 Configuration3 force_based(const Viscoelastic& force, std::uint64_t steps) {
   bench::ForceBasedRun<3, Viscoelastic> run(gas(), force);
-  run.advance(until, steps);
+  run.advance(end, steps);
   return run.state();
 }
 
@@ -90,13 +67,12 @@ TEST(ForceBasedRun, HasTheTrajectoriesOfTheMatrixOfRestitution) {
   for (const double dissipative_time : {0.0, 2e-4}) {
     SCOPED_TRACE(dissipative_time);
     const Viscoelastic force{1e8, 0.4, dissipative_time};
-    const RunState3 state = event_driven(gas(), soft(force));
+    const RunState3 state = run_until(gas(), end, soft(force));
     const Configuration3 coarse = force_based(force, 20'000), fine = force_based(force, 40'000);
     const auto of_coarse = differences(state.configuration, coarse);
     const auto of_fine = differences(state.configuration, fine);
-    EngineOptions hard;
-    hard.laws = dissipative_time > 0 ? 0.9 : 1;
-    const auto of_hard = differences(event_driven(gas(), hard).configuration, fine);
+    const DynamicsOptions hard = with_laws(dissipative_time > 0 ? 0.9 : 1);
+    const auto of_hard = differences(run_until(gas(), end, hard).configuration, fine);
     EXPECT_GT(state.counters.collisions, 150u);
     const double of_half_the_step = std::pow(0.5, dissipative_time > 0 ? 1.5 : 2);
     for (const double share : {0.5, 0.7})
@@ -110,10 +86,10 @@ TEST(ForceBasedRun, HasTheTrajectoriesOfTheMatrixOfRestitution) {
 template <int Dim>
 void expect_trajectories_of_the_reference(const Configuration<Dim>& start) {
   const Viscoelastic force{1e8, 0.4, 2e-4};
-  const RunState<Dim> state = event_driven(start, soft(force));
+  const RunState<Dim> state = run_until(start, end, soft(force));
   EXPECT_GT(state.counters.collisions, start.size() / 3);
   bench::ClusterwiseRun<Dim, Viscoelastic> run(start, force, 1e-13, 2e-4);
-  run.advance(until);
+  run.advance(end);
   const auto off = differences(state.configuration, run.state());
   EXPECT_LT(quantile(off, 0.5), 1e-9);
   EXPECT_LT(quantile(off, 0.8), 1e-6);

@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "bench/reference/literature.h"
 #include "bench/studies/study.h"
@@ -23,12 +21,6 @@ using testing_program::Outcome;
 using testing_program::run;
 using testing_program::run_and_signal;
 
-std::string content(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 /// What a study prints as JSON; by part, its rows.
 Json numbers(const Folder& folder, std::vector<std::string> words) {
   words.insert(words.end(), {"--json", "-q"});
@@ -36,6 +28,14 @@ Json numbers(const Folder& folder, std::vector<std::string> words) {
   EXPECT_EQ(outcome.code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
   return Json::parse(outcome.output);
+}
+Json numbers(const std::vector<std::string>& words) {
+  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+  return numbers(Folder(std::string(test.test_suite_name()) + "_" + test.name()), words);
+}
+
+void expect_keys(const Json& of, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) EXPECT_TRUE(of.contains(key)) << key;
 }
 
 const Json& rows_of(const Json& found, const std::string& part) {
@@ -45,15 +45,13 @@ const Json& rows_of(const Json& found, const std::string& part) {
 }
 
 TEST(BenchContactTime, PrintsRowsWithTheKeysOfTheManual) {
-  const Folder folder("bench_rows");
-  const Json found = numbers(folder, {"contact-time", "plane", "--pairs", "30", "--class",
-                                      "generic", "--method", "separating_axis", "slsqp"});
+  const Json found = numbers({"contact-time", "plane", "--pairs", "30", "--class", "generic",
+                              "--method", "separating_axis", "slsqp"});
   const Json& rows = found["parts"][0]["rows"];
   ASSERT_EQ(rows.size(), 4u);  // two methods, generic at two aspect ratios
   for (const Json& row : rows) {
-    for (const char* const key : {"tolerance", "degenerate", "median_error", "largest_gap_error",
-                                  "largest_moot_gap", "contacts"})
-      EXPECT_TRUE(row.contains(key)) << key;
+    expect_keys(row, {"tolerance", "degenerate", "median_error", "largest_gap_error",
+                      "largest_moot_gap", "contacts"});
     EXPECT_GT(row["ns_per_call"], 1.0);
     int answers = 0;
     for (const char* const key : {"correct", "early", "late", "missed", "false", "not_converged"})
@@ -66,12 +64,11 @@ TEST(BenchContactTime, PrintsRowsWithTheKeysOfTheManual) {
 }
 
 TEST(BenchContactTime, AllowsErrorsOfTimesAndGapsByTheirTolerances) {
-  const Folder folder("bench_tolerance");
   const auto row = [&](const std::vector<std::string>& tolerances) {
     std::vector<std::string> words = {"collision-time", "plane", "--pairs",  "60",
                                       "--class",        "slow",  "--method", "separating_axis"};
     words.insert(words.end(), tolerances.begin(), tolerances.end());
-    return numbers(folder, words)["parts"][0]["rows"][0];
+    return numbers(words)["parts"][0]["rows"][0];
   };
   // All contacts of this class are degenerate: declared at a gap of about one contact gap, early.
   const Json lenient = row({"--tolerance", "1e-12", "--gap-tolerance", "1e-8"});
@@ -91,24 +88,23 @@ TEST(BenchContactTime, WritesPageTablesAndNumbers) {
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, AllOf(HasSubstr("## plane"), HasSubstr("recorded, κ = 2"),
                                     HasSubstr("## passing_pair")));
-  const Json data = Json::parse(content(folder / "out/contact-time.json"));
+  const Json data = Json::parse(folder.read("out/contact-time.json"));
   ASSERT_EQ(data["parts"].size(), 6u);
   for (const Json& part : data["parts"]) EXPECT_GT(part["rows"].size(), 3u) << part["name"];
   const Json& scene = data["parts"][2]["rows"];
   ASSERT_EQ(scene[1]["method"], "separating_axis");
   EXPECT_NEAR(scene[1]["time"], 0.08472238582199765, 1e-13);
-  for (const char* const key : {"command", "commit", "processor", "compiler", "flags", "date"})
-    EXPECT_TRUE(data["provenance"].contains(key)) << key;
+  expect_keys(data["provenance"], {"command", "commit", "processor", "compiler", "flags", "date"});
   ASSERT_FALSE(data["more"]["failures"].empty());
   for (const Json& failure : data["more"]["failures"]) {
     EXPECT_NE(failure["method"], "separating_axis");
     const std::string command = failure["command"];
     EXPECT_THAT(command, testing::StartsWith("vitrel pair path --body 'semi_axes="));
   }
-  const std::string page = content(folder / "out/contact-time.html");
+  const std::string page = folder.read("out/contact-time.html");
   EXPECT_THAT(page, AllOf(HasSubstr("default-src 'none'"), HasSubstr("plane_tolerances"),
                           testing::Not(HasSubstr(" src="))));
-  EXPECT_THAT(content(folder / "out/contact-time.md"), HasSubstr(outcome.output.substr(0, 200)));
+  EXPECT_THAT(folder.read("out/contact-time.md"), HasSubstr(outcome.output.substr(0, 200)));
 }
 
 TEST(BenchWholeRun, NeedsNoCorrectionsWithTheDefaultMethod) {
@@ -126,13 +122,11 @@ TEST(BenchWholeRun, NeedsNoCorrectionsWithTheDefaultMethod) {
       EXPECT_EQ(row["deepest_overlap"], 0);
     }
   }
-  EXPECT_EQ(Json::parse(content(folder / "run.json"))["parts"][0]["rows"], rows);
+  EXPECT_EQ(Json::parse(folder.read("run.json"))["parts"][0]["rows"], rows);
 }
 
 TEST(BenchThesis, ComparesThreePrograms) {
-  const Folder folder("bench_thesis");
-  const Json found =
-      numbers(folder, {"thesis", "--quick", "--duration", "0.5", "--seconds", "0.1"});
+  const Json found = numbers({"thesis", "--quick", "--duration", "0.5", "--seconds", "0.1"});
   const Json& rows = found["parts"][0]["rows"];
   ASSERT_EQ(rows.size(), 24u);  // N = 16 and 25; ellipses and circles; three programs; two dynamics
   for (const Json& row : rows) {
@@ -148,8 +142,7 @@ TEST(BenchThesis, ComparesThreePrograms) {
 }
 
 TEST(BenchEngine, CountsMakeSense) {
-  const Folder folder("bench_engine");
-  const Json found = numbers(folder, {"engine", "speed", "gases", "calendar", "--quick"});
+  const Json found = numbers({"engine", "speed", "gases", "calendar", "--quick"});
   for (const Json& row : found["parts"][0]["rows"]) {
     if (row["method"] != "engine") continue;
     // A collision is one event; a few more find that their partner has met another.
@@ -165,8 +158,7 @@ TEST(BenchEngine, CountsMakeSense) {
 }
 
 TEST(BenchSampling, AllMethodsAgreeAndForget) {
-  const Folder folder("bench_sampling");
-  const Json found = numbers(folder, {"sampling", "--quick"});
+  const Json found = numbers({"sampling", "--quick"});
   std::map<std::string, std::vector<double>> z;
   for (const Json& row : found["parts"][0]["rows"]) {
     EXPECT_TRUE(row["z_error"].is_null() || row["z_error"] > 0) << row;  // no error: too short
@@ -192,8 +184,7 @@ TEST(BenchSampling, AllMethodsAgreeAndForget) {
 }
 
 TEST(BenchDense, GrowthReachesWhatItIsAskedFor) {
-  const Folder folder("bench_dense");
-  const Json found = numbers(folder, {"dense", "density", "--quick"});
+  const Json found = numbers({"dense", "density", "--quick"});
   for (const Json& row : rows_of(found, "density")) {
     const double wanted = row["packing_fraction"], reached = row["reached"];
     EXPECT_EQ(row.contains("ns"), row["end"] == "reached") << row;
@@ -204,8 +195,7 @@ TEST(BenchDense, GrowthReachesWhatItIsAskedFor) {
 }
 
 TEST(BenchBrownianStep, LongStepsSlowDownAndCostLess) {
-  const Folder folder("bench_step");
-  const Json found = numbers(folder, {"brownian-step", "--quick"});
+  const Json found = numbers({"brownian-step", "--quick"});
   const Json& rows = rows_of(found, "relaxation");
   ASSERT_EQ(rows.size(), 3u);  // τ_B = 0.1, 0.3 and 1
   EXPECT_FALSE(rows[0].contains("error"));
@@ -214,8 +204,7 @@ TEST(BenchBrownianStep, LongStepsSlowDownAndCostLess) {
 }
 
 TEST(BenchAnalysis, AgreesWithPlainLoopsAndSums) {
-  const Folder folder("bench_analysis");
-  const Json found = numbers(folder, {"analysis", "--quick"});
+  const Json found = numbers({"analysis", "--quick"});
   for (const Json& row : found["parts"][0]["rows"])
     if (row["method"] == "vitrel") {
       EXPECT_LT(row["difference"], 1e-9) << row;
@@ -233,8 +222,7 @@ TEST(BenchAnalysis, AgreesWithPlainLoopsAndSums) {
 }
 
 TEST(BenchSoftContacts, TablesAreAsAccurateAsTheySay) {
-  const Folder folder("bench_soft");
-  const Json found = numbers(folder, {"soft-contacts", "accuracy", "--quick"});
+  const Json found = numbers({"soft-contacts", "accuracy", "--quick"});
   std::map<double, double> errors;  // of tables, by their tolerance
   for (const Json& row : found["parts"][0]["rows"])
     if (row["method"] == "tables") errors[row["parameter"]] = row["median"];

@@ -46,7 +46,7 @@ TEST(RecordedClass, IsAnsweredRightByTheDefaultMethod) {
       EXPECT_DOUBLE_EQ(asked.one.body.shape.aspect_ratio(), of.aspect_ratio);
       EXPECT_FALSE(asked.grows());
       ASSERT_GE(asked.horizon, 0);
-      const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
+      const TrueContact truth = truth_of(asked);
       EXPECT_NE(truth.outcome, Truth::overlap_at_start) << index;
       contacts += truth.outcome == Truth::contact;
       none += truth.outcome == Truth::none;

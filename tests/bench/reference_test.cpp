@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bench/surveys/stability_suite.h"
-#include "bench/surveys/true_contact.h"
+#include "bench/surveys/verdict.h"
 #include "core/extended.h"
 #include "core/state/exact_pair.h"
 
@@ -95,7 +95,7 @@ bool overlap(const CollisionCase& pair, long double time) {
 TEST_P(EveryClass, IsWhereAnOverlapBeginsInAWiderArithmetic) {
   for (int index = 0; index < 30; ++index) {
     const CollisionCase pair = make_case(GetParam(), 7, index);
-    const auto truth = true_first_contact(pair.one, pair.two, pair.horizon);
+    const auto truth = truth_of(pair);
     ASSERT_NE(truth.outcome, Truth::undecided) << index;
     if (truth.outcome == Truth::overlap_at_start) {
       EXPECT_TRUE(overlap(pair, 0)) << index;
@@ -115,8 +115,8 @@ TEST_P(EveryClass, IsTheFirstTimeThatTheGapVanishes) {
   int contacts = 0;
   for (int index = 0; index < 20; ++index) {
     const CollisionCase pair = make_case(GetParam(), 8, index);
-    const auto gap = [&](long double time) { return true_gap(pair.one, pair.two, time); };
-    const auto truth = true_first_contact(pair.one, pair.two, pair.horizon);
+    const auto gap = [&](long double time) { return gap_at(pair, time); };
+    const auto truth = truth_of(pair);
     if (truth.outcome == Truth::overlap_at_start) {
       EXPECT_LT(gap(0), 0) << index;
       continue;

@@ -5,13 +5,10 @@
 #include <numbers>
 
 #include "bench/surveys/thesis_run.h"
+#include "tests/support/scenes.h"
 
 namespace vitrel::bench {
 namespace {
-
-Ellipse of_aspect_ratio(double kappa) {
-  return {std::sqrt(kappa), 1 / std::sqrt(kappa)};
-}
 
 // Disks fill π/4 of a square lattice; κ = √3 at 45° reaches the triangular lattice's π/(2√3), and
 // θ and −θ are mirror images.

@@ -5,22 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "bench/surveys/timed_batches.h"
+#include "tests/support/case_classes.h"
 
 namespace vitrel::bench {
 namespace {
 
 const CaseClass& generic() {
-  static const std::vector<CaseClass> suite = stability_suite();
-  return *std::ranges::find(suite, "generic", &CaseClass::name);
+  static const std::vector<CaseClass> classes = classes_named("generic");
+  return classes.front();
 }
 
 /// Answers with the true time plus `delay`.
 Method delayed(const std::string& name, double delay) {
   return {name, 0, [delay](const CollisionCase& asked) {
-            const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
+            const TrueContact truth = truth_of(asked);
             Prediction2 answer;
             if (truth.outcome == TrueContact::Outcome::none) return answer;
             answer.outcome = Outcome::contact;
@@ -152,7 +154,7 @@ TEST(Survey, KeepsTheFirstFailureOfEachMethodThatAppliesAtAll) {
   // It can be made anew from class, seed and index, and none before it has a contact.
   for (std::uint64_t k = 0; k <= late.index; ++k) {
     const CollisionCase asked = make_case(generic(), request.seed, k);
-    const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
+    const TrueContact truth = truth_of(asked);
     EXPECT_EQ(truth.outcome == TrueContact::Outcome::contact, k == late.index) << k;
   }
   EXPECT_EQ(failures[1].method, "lost at times");

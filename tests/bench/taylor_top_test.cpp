@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/surveys/drawn_class.h"
 #include "core/geometry/asymmetric_top.h"
 #include "core/random/stream.h"
 
@@ -40,9 +41,6 @@ Conserved conserved(const TaylorTop& top, const Ellipsoid& shape, Real time) {
 Quaternion any_orientation(Stream& draw) {
   return Quaternion{draw.normal(), draw.normal(), draw.normal(), draw.normal()}.normalized();
 }
-Vec3 any_vector(Stream& draw) {
-  return {draw.normal(), draw.normal(), draw.normal()};
-}
 
 // Some 40 units in the last place of 80 bits, after hundreds of steps; also where the body turns backwards in time.
 TEST(TaylorTop, ConservesMomentumAndEnergyTo1em17) {
@@ -50,7 +48,7 @@ TEST(TaylorTop, ConservesMomentumAndEnergyTo1em17) {
   for (int trial = 0; trial < 20; ++trial) {
     const Ellipsoid shape{Vec3{draw.uniform(1, 20), draw.uniform(1, 20), 1}};
     const double end = trial % 2 == 0 ? 20 : -20;
-    const TaylorTop top{shape, any_orientation(draw), 3 * any_vector(draw), end};
+    const TaylorTop top{shape, any_orientation(draw), 3 * thermal_vector<3>(draw), end};
     const Conserved start = conserved(top, shape, 0);
     for (int k = 1; k <= 10; ++k) {
       const Conserved now = conserved(top, shape, 0.1L * k * end);
@@ -100,7 +98,7 @@ TEST(TaylorTop, ContinuesItself) {
   Stream draw(2, Purpose::tests);
   for (int trial = 0; trial < 20; ++trial) {
     const Quaternion orientation = any_orientation(draw);
-    const Vec3 omega = 2 * any_vector(draw);
+    const Vec3 omega = 2 * thermal_vector<3>(draw);
     const TaylorTop whole(scalene, orientation, omega, 6);
     const TaylorTop::State middle = whole.at(3);
     const TaylorTop second(scalene, Quaternion(middle.axes.cast<double>()).normalized(),
@@ -117,7 +115,7 @@ TEST(TaylorTop, AgreesWithTheClosedForm) {
   for (int trial = 0; trial < 200; ++trial) {
     const Ellipsoid shape{Vec3{draw.uniform(1, 10), 1, draw.uniform(1, 10)}};
     const Quaternion orientation = any_orientation(draw);
-    const Vec3 omega = any_vector(draw);
+    const Vec3 omega = thermal_vector<3>(draw);
     const TaylorTop series(shape, orientation, omega, 10);
     const AsymmetricTop closed(shape, orientation, omega);
     for (int k = 0; k <= 10; ++k) {

@@ -19,7 +19,7 @@ CollisionCase head_on(double speed, double horizon) {
 
 Verdict verdict(const CollisionCase& asked, const Prediction2& answer,
                 const AllowedError& tolerance = {}) {
-  const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
+  const TrueContact truth = truth_of(asked);
   return assess(asked, truth, answer, tolerance).verdict;
 }
 
@@ -45,7 +45,7 @@ TEST(Verdict, ContactAtOne) {
 
 TEST(Verdict, ErrorsAreThoseOfTheAnswer) {
   const CollisionCase asked = head_on(2, 10);
-  const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
+  const TrueContact truth = truth_of(asked);
   const Assessment of = assess(asked, truth, contact_at(0.75), {});
   EXPECT_NEAR(of.time_error, -0.25, 1e-15);
   EXPECT_NEAR(of.gap_error, 0.5, 1e-15);
@@ -57,7 +57,7 @@ TEST(Verdict, ErrorsAreThoseOfTheAnswer) {
 TEST(Verdict, DegenerateContactCountsByItsGap) {
   const CollisionCase asked = head_on(1e-3, 4);
   const CollisionCase there{asked.one, {asked.two.body, {{2 + 1e-3, 0}, 0}, asked.two.motion}, 4};
-  const TrueContact truth = true_first_contact(there.one, there.two, there.horizon);
+  const TrueContact truth = truth_of(there);
   ASSERT_EQ(truth.outcome, Truth::contact);
   const double time = static_cast<double>(truth.time);
   EXPECT_TRUE(assess(there, truth, contact_at(time), {}).degenerate);
@@ -94,7 +94,7 @@ TEST(Verdict, OverlapAtTheStart) {
 TEST(Verdict, Undecided) {
   CollisionCase asked = head_on(1, 8);
   asked.two.pose.position.y() = 2;
-  const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
+  const TrueContact truth = truth_of(asked);
   ASSERT_EQ(truth.outcome, Truth::undecided);
   EXPECT_NEAR(static_cast<double>(truth.time), 4, 1e-8);
   EXPECT_TRUE(assess(asked, truth, nothing, {}).degenerate);

@@ -1,14 +1,13 @@
 """Analyses an H5MD file of another program: two-dimensional, a fixed box, other names, nothing of vitrel's own."""
 import json
 import pathlib
-import subprocess
-import sys
 import tempfile
 
 import h5py
 import numpy as np
 
-PROGRAM = sys.argv[1]
+from program import vitrel
+
 FRAMES, PARTICLES, INTERVAL, SIDE = 300, 40, 0.25, 30.0
 
 draw = np.random.default_rng(1)
@@ -35,8 +34,7 @@ def write(path, *left_out):
 
 
 def analyze(path, *settings):
-    return subprocess.run([PROGRAM, "analyze", path, "-o", path.with_suffix(".results.h5"), "--json", *settings],
-                          capture_output=True, text=True, check=False)
+    return vitrel("analyze", path, "-o", path.with_suffix(".results.h5"), "--json", *settings)
 
 
 def mean_over_origins(function, lag):

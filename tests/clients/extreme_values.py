@@ -4,10 +4,10 @@ import concurrent.futures
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
+from program import PROGRAM, vitrel
+
 VALUES = ["-1", "0", "1e-300", "1e-19", "1e19", "1e300", "nan"]
 UNITS = {"radius": "m", "density": "kg/m^3", "thermal_speed": "m/s", "stiffness": "N/m", "damping": "kg/s",
          "youngs_modulus": "Pa", "dissipative_time": "s"}
@@ -34,9 +34,8 @@ samples = {{ {samples} }}
 
 def keys():
     """The keys that hold numbers, by the reference page; of lists those of the first entry, of stages of the second."""
-    page = subprocess.run([PROGRAM, "params", "--reference"], capture_output=True, text=True, check=True).stdout
     section = ""
-    for line in page.splitlines():
+    for line in vitrel("params", "--reference").stdout.splitlines():
         if heading := re.match(r"## `\[+(.*?)\]+`", line):
             section = heading[1]
         elif (row := re.match(r"\| `(\S+)` \| (.*?) \|", line)) and not section.startswith(("sweep", "import")):

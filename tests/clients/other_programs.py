@@ -1,10 +1,5 @@
 """One run as other programs write it, by GSD's own writer, ASE, h5py, and LAMMPS' format: all give the results of the run."""
-import json
-import os
 import pathlib
-import subprocess
-import sys
-import tempfile
 
 import ase
 import ase.io
@@ -12,10 +7,9 @@ import gsd.hoomd
 import h5py
 import numpy as np
 
-# Version 3 of gsd calls a frame and the modes otherwise than the versions before.
-Frame, write = (gsd.hoomd.Frame, "w") if hasattr(gsd.hoomd, "Frame") else (gsd.hoomd.Snapshot, "wb")
+from gsd_versions import WRITE, Frame
+from program import summary_of, work_in_a_new_folder
 
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 TABLES = {"displacements_all": ["msd", "msr"], "orientation_all": ["l_2"], "structure_factor": ["s"],
           "pair_correlation": ["g"]}
 PARAMETERS = """[system]
@@ -33,14 +27,8 @@ samples = { spacing = "linear", interval = 0.1 }
 """
 
 
-def vitrel(*words):
-    done = subprocess.run([PROGRAM, *words, "--json", "-q"], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, (words, done.stderr)
-    return json.loads(done.stdout)
-
-
 def results(file, *settings):
-    summary = vitrel("analyze", file, "-o", f"{file}.results.h5", *settings)
+    summary = summary_of("analyze", file, "-o", f"{file}.results.h5", *settings)
     assert ("seed" in summary) != ("import" in summary), summary
     with h5py.File(f"{file}.results.h5") as found:
         tables = {f"{table}/{name}": found[table][name][:] for table, names in TABLES.items() for name in names}
@@ -65,7 +53,7 @@ class Run:
 
 def write_gsd(run, path, images):
     """`images`: in all frames; otherwise in the first one only, as HOOMD-blue writes by default."""
-    with gsd.hoomd.open(path, write) as file:
+    with gsd.hoomd.open(path, WRITE) as file:
         for k, step in enumerate(run.steps):
             frame = Frame()
             frame.configuration.step, frame.configuration.dimensions = int(step), 2
@@ -130,10 +118,9 @@ def columns_of_dump():
     return f"import.columns=[{pairs}]"
 
 
-with tempfile.TemporaryDirectory() as folder:
-    os.chdir(folder)
+with work_in_a_new_folder():
     pathlib.Path("p.toml").write_text(PARAMETERS, encoding="utf-8")
-    vitrel("run", "p.toml", "-o", "run.h5")
+    summary_of("run", "p.toml", "-o", "run.h5")
     _, right = results("run.h5")
     run = Run("run.h5")
     interval = f"import.time_per_step={float(run.times[1] - run.times[0])!r}"
@@ -148,9 +135,8 @@ with tempfile.TemporaryDirectory() as folder:
                                        ("other.h5", 1e-9),
                                        ("run.dump", 1e-9, "import.dimension=2", interval, columns_of_dump())):
         words = [word for setting in settings for word in ("--set", setting)]
-        assert vitrel("check", file, *words)["overlaps"] == 0 or tolerance > 1e-9
+        assert summary_of("check", file, *words)["overlaps"] == 0 or tolerance > 1e-9
         imported, found = results(file, *words)
         assert imported["frames"] == f"{len(run.times)} of 20 particles in the plane", imported
         for name, values in right.items():
             np.testing.assert_allclose(found[name], values, rtol=tolerance, atol=tolerance, err_msg=f"{file}: {name}")
-    os.chdir("/")

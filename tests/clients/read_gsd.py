@@ -6,9 +6,7 @@ import gsd.pygsd
 import numpy as np
 
 from exported import expect, expect_near, export
-
-# Before version 3 of gsd modes were those of Python.
-read, read_and_write = ("r", "r+") if hasattr(gsd.hoomd, "Frame") else ("rb", "rb+")
+from gsd_versions import READ, READ_AND_WRITE
 
 right, path = export("gsd")
 d = right.dimension
@@ -115,12 +113,12 @@ def check_trajectory(trajectory):
 
 
 def append_last_frame():
-    with gsd.hoomd.open(path, read_and_write) as trajectory:
+    with gsd.hoomd.open(path, READ_AND_WRITE) as trajectory:
         frame = trajectory[right.frames - 1]
         frame.configuration.step = 12345
         frame.particles.charge = np.arange(right.n)  # an array that the file did not have
         trajectory.append(frame)
-    with gsd.hoomd.open(path, read) as trajectory:
+    with gsd.hoomd.open(path, READ) as trajectory:
         assert len(trajectory) == right.frames + 1
         assert trajectory[right.frames].configuration.step == 12345
         expect("charge", trajectory[right.frames].particles.charge, np.arange(right.n))
@@ -128,7 +126,7 @@ def append_last_frame():
             check_frame(trajectory[k], k)
 
 
-with gsd.hoomd.open(path, read) as trajectory:
+with gsd.hoomd.open(path, READ) as trajectory:
     assert isinstance(trajectory.file, gsd.fl.GSDFile)
     check_trajectory(trajectory)
 with gsd.pygsd.GSDFile(open(path, "rb")) as file:

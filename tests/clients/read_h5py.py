@@ -5,12 +5,7 @@ import h5py
 import numpy as np
 
 import sample
-
-
-def expect(name, found, right):
-    found, right = np.asarray(found), np.asarray(right)
-    assert found.shape == right.shape, f"{name}: shape {found.shape}, not {right.shape}"
-    assert np.array_equal(found, right), f"{name}: {found} is not {right}"
+from exported import expect
 
 
 def check_h5md(file):

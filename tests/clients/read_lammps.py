@@ -1,15 +1,15 @@
 """Dumps and data files that LAMMPS wrote: displacements are those that it computed itself."""
 import json
-import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 
 import h5py
 import numpy as np
 
-PROGRAM, LAMMPS = (pathlib.Path(name).resolve() for name in sys.argv[1:3])
+from program import summary_of, vitrel, work_in_a_new_folder
+
+LAMMPS = pathlib.Path(sys.argv[2]).resolve()
 ATOMS = 108
 # A liquid of Lennard-Jones atoms of two types in the units of lj, with dumps of several forms.
 SCRIPT = """units lj
@@ -46,10 +46,8 @@ mass = 2
 """
 
 
-def vitrel(*words):
-    done = subprocess.run([PROGRAM, *words, "--params", "sizes.toml", "--json"], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, (words, done.stderr)
-    return json.loads(done.stdout)
+def analyzed(dump, output, *settings):
+    return summary_of("analyze", dump, "-o", output, "--params", "sizes.toml", *settings)["import"]
 
 
 def paths():
@@ -64,8 +62,8 @@ def paths():
 
 
 def compare_motion(dump, accuracy, *settings):
-    summary = vitrel("analyze", dump, "-o", "results.h5", *settings)
-    assert summary["import"]["format"] == "LAMMPS dump", summary
+    imported = analyzed(dump, "results.h5", *settings)
+    assert imported["format"] == "LAMMPS dump", imported
     unwrapped = paths()
     with h5py.File("results.h5") as results:
         moved = results["displacements_all"]
@@ -76,20 +74,18 @@ def compare_motion(dump, accuracy, *settings):
             np.testing.assert_allclose(msd, expected, rtol=accuracy)
 
 
-with tempfile.TemporaryDirectory() as folder:
-    os.chdir(folder)
+with work_in_a_new_folder():
     pathlib.Path("in.lammps").write_text(SCRIPT, encoding="utf-8")
     pathlib.Path("sizes.toml").write_text(SIZES, encoding="utf-8")
     subprocess.run([LAMMPS, "-in", "in.lammps", "-log", "log.lammps"], stdout=subprocess.DEVNULL, check=True)
     compare_motion("images.dump", 2e-4)
     compare_motion("unwrapped.dump", 2e-4)
     compare_motion("plain.dump", 2e-4, "--set", "import.unwrap=nearest")
-    left_out = vitrel("analyze", "plain.dump", "-o", "plain.h5")["import"]["absent"]
+    left_out = analyzed("plain.dump", "plain.h5")["absent"]
     assert "box crossings (motion is left out)" in left_out, left_out
     for file, what in (("end.data", "LAMMPS data"), ("plain.xyz", "extended XYZ")):
         settings = [] if what == "LAMMPS data" else ["--set", "import.box=[5.6462, 5.6462, 5.6462]"]
-        done = subprocess.run([PROGRAM, "check", file, "--params", "sizes.toml", "--json", *settings],
-                              capture_output=True, text=True, check=False)
+        done = vitrel("check", file, "--params", "sizes.toml", "--json", *settings)
         summary = json.loads(done.stdout)  # some atoms are closer than the diameters that are given here
         assert done.returncode in (0, 4) and summary["particles"] == ATOMS, done.stderr
         assert summary["import"]["format"] == what, summary

@@ -74,8 +74,17 @@ class Exported(unittest.TestCase):
         file.write_text(parameters)
         return output_of([PROGRAM, "sweep", file, "-o", self.folder / name, "-q", *more])
 
-    def expect_equal(self, local, other, jobs):
-        different, files = differing_files(self.folder / local, other, jobs)
+    def exported(self, parameters, to, *more):
+        """The folder of an exported sweep."""
+        self.sweep(parameters, "exported", "--export", to, *more)
+        return self.folder / "exported"
+
+    def exported_and_moved(self, parameters, to, *more):
+        return self.exported(parameters, to, *more).rename(self.folder / "moved here")
+
+    def expect_equal(self, other, jobs):
+        """The local sweep has the same files."""
+        different, files = differing_files(self.folder / "local", other, jobs)
         self.assertEqual(different, [])
         self.assertGreaterEqual(files, 3 * len(jobs))
 
@@ -83,24 +92,21 @@ class Exported(unittest.TestCase):
 class Snakemake(Exported):
     def test_equals_the_local_sweep(self):
         self.sweep(SWEEP, "local", "-j", "2", *SETTING)
-        self.sweep(SWEEP, "exported", "--export", "snakemake", *SETTING)
-        moved = self.folder / "moved here"
-        (self.folder / "exported").rename(moved)
+        moved = self.exported_and_moved(SWEEP, "snakemake", *SETTING)
         output_of(SNAKEMAKE, cwd=moved)
-        self.expect_equal("local", moved, JOBS)
+        self.expect_equal(moved, JOBS)
         runs = [moved / job / "run.h5" for job in JOBS[:2]]
         self.assertIn("particles/all/position/value", differing_datasets(*runs))
 
     def test_a_ladder_equals_the_local_one(self):
         self.sweep(LADDER, "local")
-        self.sweep(LADDER, "exported", "--export", "snakemake")
-        output_of(SNAKEMAKE, cwd=self.folder / "exported")
-        self.expect_equal("local", self.folder / "exported", RUNGS)
+        sweep = self.exported(LADDER, "snakemake")
+        output_of(SNAKEMAKE, cwd=sweep)
+        self.expect_equal(sweep, RUNGS)
 
     def test_a_stopped_job_continues(self):
         self.sweep(LONG, "local")
-        self.sweep(LONG, "exported", "--export", "snakemake")
-        sweep = self.folder / "exported"
+        sweep = self.exported(LONG, "snakemake")
         with subprocess.Popen(SNAKEMAKE, cwd=sweep, stderr=subprocess.PIPE, text=True) as workflow:
             wait_until((sweep / LONG_JOB / "run.h5").exists, 60, "no run")
             os.kill(wait_until(lambda: process_of_run(sweep, LONG_JOB), 60, "no process"), signal.SIGUSR1)
@@ -108,11 +114,10 @@ class Snakemake(Exported):
         self.assertEqual(workflow.returncode, 0, errors)
         self.assertIn("Trying to restart job", errors)
         self.assertIn("continuing at time", (sweep / LONG_JOB / "log.txt").read_text())
-        self.expect_equal("local", sweep, [LONG_JOB])
+        self.expect_equal(sweep, [LONG_JOB])
 
     def test_a_failed_job_is_not_tried_again(self):
-        self.sweep(IMPOSSIBLE, "exported", "--export", "snakemake")
-        sweep = self.folder / "exported"
+        sweep = self.exported(IMPOSSIBLE, "snakemake")
         done = subprocess.run(SNAKEMAKE, cwd=sweep, capture_output=True, text=True)
         self.assertNotEqual(done.returncode, 0)
         self.assertEqual(done.stderr.count("packing_fraction-0.85: failed with exit code 2"), 1)
@@ -123,15 +128,14 @@ class Snakemake(Exported):
         """Options of Snakemake 8 are those of its documentation and of the plugin cluster-sync."""
         import yaml  # which Snakemake brings
 
-        self.sweep(SWEEP, "exported", "--export", "snakemake")
-        profile = self.folder / "exported/slurm"
+        profile = self.exported(SWEEP, "snakemake") / "slurm"
         former, later = (yaml.safe_load((profile / name).read_text()) for name in ("config.yaml", "config.v8+.yaml"))
         self.assertEqual(later.pop("executor"), "cluster-sync")
         self.assertEqual(later.pop("cluster-sync-submit-cmd"), former.pop("cluster-sync"))
         self.assertEqual(later, former)
         for file in profile.iterdir():
             file.write_text("mine")
-        self.sweep(SWEEP, "exported", "--export", "snakemake")
+        self.exported(SWEEP, "snakemake")
         self.assertEqual({file.read_text() for file in profile.iterdir()}, {"mine"})
         words = ["sweep", self.folder / "p.toml", "-o", profile.parent, "--export", "snakemake", "-j", "2"]
         refused = subprocess.run([PROGRAM, *words], capture_output=True, text=True)
@@ -158,6 +162,12 @@ class JobArray(Exported):
         return subprocess.Popen(["bash", "job_array.sh"], cwd=sweep, env=environment, start_new_session=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
+    def task_at_work(self, sweep):
+        """The first task of the long sweep, as soon as its run has a file."""
+        task = self.task(sweep, 0)
+        wait_until((sweep / LONG_JOB / "run.h5").exists, 60, "no run")
+        return task
+
     def end_of(self, sweep, number):
         task = self.task(sweep, number)
         return task.communicate()[0], task.returncode
@@ -168,49 +178,42 @@ class JobArray(Exported):
 
     def test_equals_the_local_sweep(self):
         self.sweep(SWEEP, "local", "-j", "2", *SETTING)
-        self.sweep(SWEEP, "exported", "--export", "slurm", "-j", "3", *SETTING)
-        moved = self.folder / "moved here"
-        (self.folder / "exported").rename(moved)
+        moved = self.exported_and_moved(SWEEP, "slurm", "-j", "3", *SETTING)
         self.expect_array(moved, "0-3%3")
         for number in range(4):
             self.assertEqual(self.end_of(moved, number)[1], 0)
-        self.expect_equal("local", moved, JOBS)
+        self.expect_equal(moved, JOBS)
         self.assertIn("1 of 1 jobs are done already", self.end_of(moved, 0)[0])
 
     def test_the_jobs_of_a_ladder_are_one_task(self):
         self.sweep(LADDER, "local")
-        self.sweep(LADDER, "exported", "--export", "slurm")
-        sweep = self.folder / "exported"
+        sweep = self.exported(LADDER, "slurm")
         self.expect_array(sweep, "0-0")
         self.assertEqual(self.end_of(sweep, 0)[1], 0)
-        self.expect_equal("local", sweep, RUNGS)
+        self.expect_equal(sweep, RUNGS)
 
     def test_before_its_limit_a_task_is_queued_again(self):
         self.sweep(LONG, "local")
-        self.sweep(LONG, "exported", "--export", "slurm")
-        sweep = self.folder / "exported"
-        task = self.task(sweep, 0)
-        wait_until((sweep / LONG_JOB / "run.h5").exists, 60, "no run")
+        sweep = self.exported(LONG, "slurm")
+        task = self.task_at_work(sweep)
         os.kill(task.pid, signal.SIGUSR1)
         self.assertEqual((task.communicate()[1], task.returncode), (None, 0))
         self.assertEqual(self.asked(), "requeue job 0\n")
         self.assertIsNone(process_of_run(sweep, LONG_JOB))
         self.assertEqual(self.end_of(sweep, 0)[1], 0)
         self.assertIn("continuing at time", (sweep / LONG_JOB / "log.txt").read_text())
-        self.expect_equal("local", sweep, [LONG_JOB])
+        self.expect_equal(sweep, [LONG_JOB])
 
     def test_a_cancelled_task_is_not_queued_again(self):
-        self.sweep(LONG, "exported", "--export", "slurm")
-        sweep = self.folder / "exported"
-        task = self.task(sweep, 0)
-        wait_until((sweep / LONG_JOB / "run.h5").exists, 60, "no run")
+        sweep = self.exported(LONG, "slurm")
+        task = self.task_at_work(sweep)
         os.killpg(task.pid, signal.SIGTERM)
         self.assertIn("the same command continues", task.communicate()[0])
         self.assertEqual((task.returncode, self.asked()), (5, ""))
 
     def test_a_failed_job_fails_its_task(self):
-        self.sweep(IMPOSSIBLE, "exported", "--export", "slurm")
-        self.assertEqual([self.end_of(self.folder / "exported", number)[1] for number in (0, 1)], [2, 0])
+        sweep = self.exported(IMPOSSIBLE, "slurm")
+        self.assertEqual([self.end_of(sweep, number)[1] for number in (0, 1)], [2, 0])
         self.assertEqual(self.asked(), "")
 
 

@@ -1,14 +1,12 @@
 """A run is read by all commands while another process writes it, copied slowly, killed, and continued."""
 import json
-import os
 import pathlib
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
+from program import PROGRAM, vitrel, work_in_a_new_folder
+
 PARAMETERS = """[system]
 particles = 100
 packing_fraction = 0.5
@@ -19,10 +17,6 @@ duration = 1e7
 [output]
 samples = { spacing = "linear", interval = 10 }
 """
-
-
-def vitrel(*words):
-    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=False)
 
 
 def read(*words):
@@ -91,8 +85,7 @@ def killed():
     assert vitrel("check", "run.h5").returncode == 0
 
 
-with tempfile.TemporaryDirectory() as folder:
-    os.chdir(folder)
+with work_in_a_new_folder():
     pathlib.Path("run.toml").write_text(PARAMETERS, encoding="utf-8")
     # Until it is killed.
     with subprocess.Popen([PROGRAM, "run", "run.toml", "-o", "run.h5", "-q"]) as writer:

@@ -1,21 +1,15 @@
 """States that other programs wrote: the examples of docs/imports.md, GSD by gsd.hoomd, extended XYZ by ASE."""
-import json
-import os
 import pathlib
 import re
-import subprocess
-import sys
-import tempfile
 
 import ase
 import ase.io
 import gsd.hoomd
 import numpy as np
 
-# Version 3 of gsd calls a frame and the modes otherwise than the versions before.
-Frame, write = (gsd.hoomd.Frame, "w") if hasattr(gsd.hoomd, "Frame") else (gsd.hoomd.Snapshot, "wb")
+from gsd_versions import WRITE, Frame
+from program import summary_of, work_in_a_new_folder
 
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/imports.md"
 
 
@@ -23,20 +17,14 @@ def blocks(language):
     return re.findall(f"^```{language}\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
 
 
-def vitrel(*words):
-    done = subprocess.run([PROGRAM, *words, "--json", "-q"], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, (words, done.stderr)
-    return json.loads(done.stdout)
-
-
 def check_start(file, dimension, particles, packing_fraction, tolerance=1e-15):
     """Checks the state, starts a run from it, and returns the summary of the run."""
-    checked = vitrel("check", file)
+    checked = summary_of("check", file)
     assert len(checked["box"]) == dimension, checked
     assert checked["particles"] == particles, checked
     assert checked["overlaps"] == 0, checked
     assert abs(checked["packing_fraction"] - packing_fraction) < tolerance, checked
-    ran = vitrel("run", "p.toml", "--from", file, "-o", f"{file}.run.h5")
+    ran = summary_of("run", "p.toml", "--from", file, "-o", f"{file}.run.h5")
     assert ran["overlaps"] == 0 and abs(ran["packing_fraction"] - checked["packing_fraction"]) < 1e-15, ran
 
 
@@ -73,14 +61,14 @@ def read_gsd():
                                    {"type": "Sphere", "diameter": 2.0}]
     frame.particles.position = [[0, 0, 0], [4, 0, 0], [0, 4, 1]]
     frame.particles.orientation = [[1, 0, 0, 0], [1, 0, 0, 0], [0.6, 0.8, 0, 0]]
-    with gsd.hoomd.open("rods.gsd", write) as file:
+    with gsd.hoomd.open("rods.gsd", WRITE) as file:
         file.append(frame)
         frame.configuration.step = 200
         frame.particles.position = [[0, 0, 1], [4, 0, 0], [0, 4, 1]]
         file.append(frame)
-    assert vitrel("check", "rods.gsd")["frames"] == 2
+    assert summary_of("check", "rods.gsd")["frames"] == 2
     check_start("rods.gsd", 3, 3, 4 * np.pi / 3 * (1 + 1 + 1) / 1000)
-    vitrel("export", "rods.gsd", "--to", "csv", "-o", "rods.csv")
+    summary_of("export", "rods.gsd", "--to", "csv", "-o", "rods.csv")
     rows = [line.split(",") for line in pathlib.Path("rods.csv").read_text(encoding="utf-8").splitlines()]
     name = [cell.split(" ")[0] for cell in rows[0]]
     last = dict(zip(name, rows[4]))
@@ -94,11 +82,9 @@ def read_xyz_of_ase():
     check_start("balls.xyz", 3, 3, 4 * np.pi / 3 * (2 + 1.5**3) / 504)
 
 
-with tempfile.TemporaryDirectory() as folder:
-    os.chdir(folder)
+with work_in_a_new_folder():
     pathlib.Path("p.toml").write_text("[dynamics]\nequilibration = 0\nduration = 1\n", encoding="utf-8")
     read_examples_of_the_page()
     read_solids_of_h5py()
     read_gsd()
     read_xyz_of_ase()
-    os.chdir("/")

@@ -79,22 +79,15 @@ TEST(ChebyshevPanels, SaysNothingWhereTheToleranceIsNotMet) {
 TEST(ChebyshevPanels, NoValueOutsideTheBoxAndOfWhatIsNoNumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Box<2> box{{0, 0}, {1, 1}};
-  const Plane one(
-      box,
-      [](const Plane::Point&) {
-        return Plane::Value{1, 1};
-      },
-      {}, 1);
+  const auto constant = [](double second) {
+    return [second](const Plane::Point&) { return Plane::Value{1, second}; };
+  };
+  const Plane one(box, constant(1), {}, 1);
   EXPECT_TRUE(one({1, 0}));
   EXPECT_FALSE(one({1.0000001, 0.5}));
   EXPECT_FALSE(one({0.5, -1e-9}));
   EXPECT_FALSE(one({nan, 0.5}));
-  const Plane none(
-      box,
-      [&](const Plane::Point&) {
-        return Plane::Value{1, nan};
-      },
-      {1, 0.3}, 1);
+  const Plane none(box, constant(nan), {1, 0.3}, 1);
   EXPECT_EQ(none.size(), 0);
   EXPECT_FALSE(none({0.5, 0.5}));
 }

@@ -5,7 +5,7 @@
 #include "core/contact/first_contact.h"
 #include "core/geometry/free_flight.h"
 #include "core/random/stream.h"
-#include "edmd/collision_rule.h"
+#include "tests/support/conserved.h"
 
 namespace vitrel {
 namespace {
@@ -33,18 +33,8 @@ struct TwoBodies {
     return true;
   }
 
-  Vec2 momentum() const { return mass1 * one.motion.velocity + mass2 * two.motion.velocity; }
-  double energy() const {
-    return 0.5 *
-           (mass1 * one.motion.velocity.squaredNorm() + mass2 * two.motion.velocity.squaredNorm() +
-            std::pow(one.motion.angular_velocity, 2) / inertia1().inverse_moment +
-            std::pow(two.motion.angular_velocity, 2) / inertia2().inverse_moment);
-  }
-  double angular_momentum() const {
-    return mass1 * cross(one.pose.position, one.motion.velocity) +
-           mass2 * cross(two.pose.position, two.motion.velocity) +
-           one.motion.angular_velocity / inertia1().inverse_moment +
-           two.motion.angular_velocity / inertia2().inverse_moment;
+  Conserved<2> sums() const {
+    return {{one.pose, one.motion, inertia1()}, {two.pose, two.motion, inertia2()}};
   }
 };
 
@@ -80,14 +70,15 @@ TEST(CollisionRule, ConservesWhatItShould) {
                    draw.uniform(0.5, 4),
                    draw.uniform(0.5, 4)};
     const double restitution = trial % 2 ? 1 : draw.uniform(0, 1);
-    const TwoBodies before = pair;
+    const Conserved<2> before = pair.sums();
     double impulse = 0, speed = 0;
     if (!pair.collide_first(restitution, &impulse, &speed)) continue;
     ++collisions;
     EXPECT_GT(speed, 0);
-    EXPECT_LT((pair.momentum() - before.momentum()).norm(), 1e-13);
-    EXPECT_NEAR(pair.angular_momentum(), before.angular_momentum(), 1e-11);
-    EXPECT_NEAR(pair.energy(), before.energy() - 0.5 * impulse * speed * (1 - restitution), 1e-12);
+    const Conserved<2> after = pair.sums();
+    EXPECT_LT((after.momentum - before.momentum).norm(), 1e-13);
+    EXPECT_NEAR(after.angular_momentum, before.angular_momentum, 1e-11);
+    EXPECT_NEAR(after.energy, before.energy - 0.5 * impulse * speed * (1 - restitution), 1e-12);
   }
   EXPECT_GT(collisions, 1000);
 }

@@ -8,6 +8,7 @@
 #include "edmd/soft/linear_dashpot.h"
 #include "edmd/soft/viscoelastic.h"
 #include "tests/support/plain_contact.h"
+#include "tests/support/soft_particles.h"
 
 namespace vitrel {
 namespace {
@@ -89,8 +90,8 @@ TEST(Restitution, ObliqueReferenceValues) {
 
 // Figure 6 of the source in SI units.
 TEST(Restitution, TheSourcesPairOfSpheres) {
-  const double mass = 1140 * 4 * pi / 3 * std::pow(0.1, 3), speed = 5, eccentricity = 0.3;
-  const ContactPair pair = contact_pair(0.1, mass, 0.1, mass);
+  const double speed = 5, eccentricity = 0.3;
+  const ContactPair pair = contact_pair(0.1, sphere_mass(0.1), 0.1, sphere_mass(0.1));
   const LinearDashpot force{2000};
   const double normal_speed = speed * std::sqrt(1 - eccentricity * eccentricity);
   const ScaledImpact scaled = scaled_impact(force, pair, normal_speed, speed * eccentricity);

@@ -15,9 +15,10 @@
 #include "core/neighbors/cell_neighbors.h"
 #include "core/state/check.h"
 #include "edmd/instances/instances.h"
-#include "edmd/run.h"
-#include "tests/support/motion.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/runs.h"
+#include "tests/support/same_motion.h"
+#include "tests/support/same_state.h"
 
 namespace vitrel {
 namespace {
@@ -29,42 +30,13 @@ Configuration2 disks() {
 }
 
 Configuration2 ellipses() {
-  return moving(
-      square_lattice(8, 0.5, std::numbers::pi / 4, [](std::size_t) { return of_aspect_ratio(2); }));
+  return moving(square_lattice(8, 0.5, std::numbers::pi / 4, of_aspect_ratio(2)));
 }
 
 Configuration2 mixture() {
   return moving(square_lattice(8, 0.4, std::numbers::pi / 4, [](std::size_t i) {
     return i % 2 ? Ellipse{1.2, 1.2} : of_aspect_ratio(2.5);
   }));
-}
-
-// Models round differently, and every collision multiplies what they differ by, 1e-15, several times;
-// the same collisions in the same order keep them together for a while, a single other one parts them
-// by far more than what is allowed here.
-void expect_same_motion(const Configuration2& start, Engine2& simple, Engine2& general,
-                        double collisions_of_each,
-                        const std::function<void(Configuration2&, double)>& in_frame_of_first) {
-  RunCounters of_simple, of_general;
-  Configuration2 one = start, two = start;
-  simple.load(one);
-  in_frame_of_first(two, 0);
-  general.load(two);
-  const double wanted = 0.5 * collisions_of_each * static_cast<double>(start.size());
-  for (double until = 0.02; static_cast<double>(of_simple.collisions) < wanted; until += 0.02) {
-    advance(simple, one, until, of_simple);
-    advance(general, two, until, of_general);
-    ASSERT_EQ(of_simple.collisions, of_general.collisions) << "up to " << until;
-    Configuration2 seen = two;
-    in_frame_of_first(seen, until);
-    ASSERT_LT(difference(one, seen), 1e-5) << "at " << until;
-  }
-  EXPECT_NEAR(of_general.virial, of_simple.virial, 1e-6 * of_simple.virial);
-  EXPECT_EQ(of_general.correction_moves, 0u);
-}
-
-void expect_same_motion(const Configuration2& start, Engine2& simple, Engine2& general) {
-  expect_same_motion(start, simple, general, 10, [](Configuration2&, double) {});
 }
 
 TEST(Models, DisksMoveAsRoundEllipses) {
@@ -98,19 +70,14 @@ TEST(Models, DisksWithCellsMoveAsThoseWithLists) {
     cells.laws = lists.laws = restitution;
     expect_same_motion(disks(), *make_disk_engine(cells), *make_disk_engine(lists));
   }
-  const Configuration2 few = moving(square_lattice(4, 0.7, 0, [](std::size_t) {
-    return Ellipse{1, 1};
-  }));
+  const Configuration2 few = moving(lattice_of_disks(4, 0.7));
   ASSERT_LT(few.box.lengths().x(), 4 * min_cell_width(1));
   expect_same_motion(few, *make_disk_engine(cells), *make_disk_engine(lists));
 }
 
 TEST(Models, GasesHaveCellsAndLiquidsLists) {
   const auto engine = [](double packing_fraction) {
-    const Configuration2 start = square_lattice(8, packing_fraction, 0, [](std::size_t) {
-      return Ellipse{1, 1};
-    });
-    return make_engine(start, {})->description();
+    return make_engine(lattice_of_disks(8, packing_fraction), {})->description();
   };
   EngineOptions cells;
   cells.neighbors = NeighborSearch::cells;
@@ -158,7 +125,7 @@ TEST_P(Invariance, ADriftChangesNoCollision) {
       }
       begun = true;
     };
-    expect_same_motion(start, *still, *drifting, 6, frame);
+    expect_same_motion(start, *still, *drifting, {.collisions_of_each = 6}, frame);
     if (HasFailure()) return;
   }
 }
@@ -168,8 +135,7 @@ TEST_P(Invariance, ADriftChangesNoCollision) {
 TEST_P(Invariance, CrossingTheBoxKeepsFourParticlesHard) {
   const Configuration2 start =
       moving(square_lattice(2, 0.3, std::numbers::pi / 4, GetParam().shape_of), 5);
-  RunState2 state = begin_run(start, 0);
-  run(state, {}, {{}, 2000, nullptr, {}}, {});
+  const RunState2 state = run_until(start, 2000);
   EXPECT_GT(state.counters.collisions, 3000u);
   EXPECT_TRUE(exact_check(state.configuration).clean());
   EXPECT_LE(state.energy_drift, 1e-12);
@@ -188,7 +154,7 @@ TEST_P(Invariance, TheOrderOfTheParticlesChangesNoCollision) {
     std::ranges::reverse(c.shape);
     std::ranges::reverse(c.mass);
   };
-  expect_same_motion(start, *forward, *backward, 10, frame);
+  expect_same_motion(start, *forward, *backward, {}, frame);
 }
 
 // So many that they exceed what the engine takes a cache to hold.
@@ -242,24 +208,16 @@ TEST_P(Invariance, ManyCopiesMoveAsOne) {
 
 // Before the end of a Brownian step many particles meet nobody and have no next event.
 TEST_P(Invariance, ManyParticlesStayHardInBrownianSteps) {
-  RunState2 state = begin_run(repeated(GetParam().scene()), 0);
-  DynamicsOptions options;
-  options.brownian = true;
-  options.brownian_step = 0.1;
-  run(state, options, {{}, 2, nullptr, {}}, {});
+  const RunState2 state = run_until(repeated(GetParam().scene()), 2, brownian(0.1));
   EXPECT_GT(state.counters.collisions, 5000u);
   EXPECT_EQ(state.counters.correction_moves, 0u);
   EXPECT_TRUE(exact_check(state.configuration).clean());
 }
 
 RunState2 brownian_run(const Configuration2& start, int threads) {
-  RunState2 state = begin_run(start, 0);
-  DynamicsOptions options;
-  options.brownian = true;
-  options.brownian_step = 0.05;
+  DynamicsOptions options = brownian(0.05);
   options.engine.threads = threads;
-  run(state, options, {{}, 3, nullptr, {}}, {});
-  return state;
+  return run_until(start, 3, options);
 }
 
 // Every velocity is drawn from a stream of its own and every prediction made from the state alone:
@@ -271,10 +229,7 @@ TEST_P(Invariance, ThreadsChangeNoBitOfABrownianRun) {
   EXPECT_GT(one.counters.collisions, 30u);
   for (const int threads : {2, 3}) {
     const RunState2 more = brownian_run(start, threads);
-    EXPECT_EQ(more.configuration.position, one.configuration.position);
-    EXPECT_EQ(more.configuration.angle, one.configuration.angle);
-    EXPECT_EQ(more.configuration.velocity, one.configuration.velocity);
-    EXPECT_EQ(more.configuration.angular_velocity, one.configuration.angular_velocity);
+    expect_same_state(more.configuration, one.configuration);
     EXPECT_EQ(more.counters.collisions, one.counters.collisions);
     EXPECT_EQ(more.counters.predictions, one.counters.predictions);
     EXPECT_EQ(more.counters.searches, one.counters.searches);
@@ -298,8 +253,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// A square lattice of disks, stretched along x with its particles: aligned, and far denser than the
 /// particles fit squares.
 Configuration2 stretched_lattice(int side, double packing_fraction, double aspect_ratio) {
-  Configuration2 c = square_lattice(side, packing_fraction, 0,
-                                    [&](std::size_t) { return of_aspect_ratio(aspect_ratio); });
+  Configuration2 c = square_lattice(side, packing_fraction, 0, of_aspect_ratio(aspect_ratio));
   const Vec2 stretch(std::sqrt(aspect_ratio), 1 / std::sqrt(aspect_ratio));
   c.box = PeriodicBox<2>(c.box.lengths().cwiseProduct(stretch));
   for (Vec2& position : c.position) position = position.cwiseProduct(stretch);

@@ -4,23 +4,13 @@
 
 #include <cmath>
 
-#include "edmd/run.h"
-#include "edmd/sampling.h"
+#include "tests/support/conserved.h"
+#include "tests/support/equal_bodies.h"
 #include "tests/support/motion.h"
-#include "tests/support/scenes.h"
-#include "tests/support/solids.h"
+#include "tests/support/runs.h"
 
 namespace vitrel {
 namespace {
-
-template <int Dim>
-RunState<Dim> run_until(const Configuration<Dim>& start, double end, const ContactLaw& law) {
-  RunState<Dim> state = begin_run(start, 0);
-  DynamicsOptions options;
-  options.engine.laws = law;
-  run(state, options, {{}, end, nullptr, {}}, {});
-  return state;
-}
 
 template <int Dim>
 ShearElements first_moments(const Configuration<Dim>& c) {
@@ -31,36 +21,35 @@ ShearElements first_moments(const Configuration<Dim>& c) {
   return sums;
 }
 
-/// In a box so wide that nothing meets its images ΔG_ab = Δ Σ m (v_a r_b + v_b r_a)/2, whatever the contacts.
+/// If nothing meets its images, ΔG_ab = Δ Σ m (v_a r_b + v_b r_a)/2, whatever the contacts.
 template <int Dim>
-void expect_change_of_first_moments(Configuration<Dim> start, const ContactLaw& law) {
-  start.box = PeriodicBox<Dim>(start.box.lengths() * 40);
-  for (std::size_t i = 0; i < start.size(); ++i) start.velocity[i] -= 0.3 * start.position[i];
-  const RunState<Dim> end = run_until(start, 10, law);
-  EXPECT_GT(end.counters.collisions, 20u);
-  const ShearElements before = first_moments(start), after = first_moments(end.configuration);
-  for (std::size_t k = 0; k < shear_elements<Dim>; ++k) {
-    EXPECT_GT(std::abs(after[k] - before[k]), 1e-3);
-    EXPECT_NEAR(end.counters.helfand_moment[k], after[k] - before[k], 1e-9);
+void expect_change_of_first_moments(const Configuration<Dim>& scene) {
+  const Configuration<Dim> start = in_an_open_box(scene);
+  for (const ContactLaw& law : {ContactLaw{}, ContactLaw{0.9, 0.7, 0.3}}) {
+    const RunState<Dim> end = run_until(start, 10, with_laws(law));
+    EXPECT_GT(end.counters.collisions, 20u);
+    const ShearElements before = first_moments(start), after = first_moments(end.configuration);
+    for (std::size_t k = 0; k < shear_elements<Dim>; ++k) {
+      EXPECT_GT(std::abs(after[k] - before[k]), 1e-3);
+      EXPECT_NEAR(end.counters.helfand_moment[k], after[k] - before[k], 1e-9);
+    }
+    for (std::size_t k = shear_elements<Dim>; k < 3; ++k)
+      EXPECT_EQ(end.counters.helfand_moment[k], 0);
   }
-  for (std::size_t k = shear_elements<Dim>; k < 3; ++k)
-    EXPECT_EQ(end.counters.helfand_moment[k], 0);
-}
-
-template <int Dim>
-void expect_of_all_laws(const Configuration<Dim>& start) {
-  for (const ContactLaw& law : {ContactLaw{}, ContactLaw{0.9, 0.7, 0.3}})
-    expect_change_of_first_moments(start, law);
 }
 
 TEST(MomentumFlux, IsTheChangeOfFirstMomentsInAnOpenBox) {
-  const auto plane = [](auto shape) { return moving(square_lattice(10, 0.3, 0.8, shape)); };
-  const auto space = [](auto shape) { return moving(cubic_lattice(5, 0.1, shape)); };
-  expect_of_all_laws(plane([](std::size_t i) { return i % 2 ? Ellipse{1, 1} : Ellipse{2, 2}; }));
-  expect_of_all_laws(plane([](std::size_t i) { return of_aspect_ratio(i % 2 ? 2 : 1); }));
-  expect_of_all_laws(space([](std::size_t) { return Ellipsoid{Vec3::Ones()}; }));
-  expect_of_all_laws(space([](std::size_t i) { return i % 2 ? prolate(2) : oblate(2); }));
-  expect_of_all_laws(space([](std::size_t) { return Ellipsoid{{1.6, 1, 0.7}}; }));
+  const auto plane = [](auto shape) {
+    expect_change_of_first_moments(moving(square_lattice(10, 0.3, 0.8, shape)));
+  };
+  const auto space = [](auto shape) {
+    expect_change_of_first_moments(moving(cubic_lattice(5, 0.1, shape)));
+  };
+  plane([](std::size_t i) { return i % 2 ? Ellipse{1, 1} : Ellipse{2, 2}; });
+  plane([](std::size_t i) { return of_aspect_ratio(i % 2 ? 2 : 1); });
+  space(Ellipsoid{Vec3::Ones()});
+  space([](std::size_t i) { return i % 2 ? prolate(2) : oblate(2); });
+  space(Ellipsoid{{1.6, 1, 0.7}});
 }
 
 // Rounding grows with every collision, so the time is short.
@@ -69,7 +58,7 @@ TEST(MomentumFlux, DoesNotDependOnWhereTheBoundariesAre) {
       moving(cubic_lattice(4, 0.1, [](std::size_t i) { return i % 2 ? prolate(2) : oblate(2); }));
   Configuration3 shifted = start;
   for (Vec3& position : shifted.position) position += 0.37 * start.box.lengths();
-  const RunState3 one = run_until(start, 5, {}), other = run_until(shifted, 5, {});
+  const RunState3 one = run_until(start, 5), other = run_until(shifted, 5);
   EXPECT_EQ(one.counters.collisions, other.counters.collisions);
   EXPECT_GT(one.counters.collisions, 50u);
   for (std::size_t k = 0; k < 3; ++k)
@@ -92,15 +81,10 @@ struct FreeFlux : Observer<2> {
 // Brownian particles do not meet here: velocities are drawn anew at times 1, 2 …, just after the frames of these
 // times.
 TEST(MomentumFlux, FollowsTheVelocitiesThatAreDrawn) {
-  const Configuration2 start = moving(square_lattice(2, 1e-9, 0, [](std::size_t) {
-    return Ellipse{1, 1};
-  }));
-  DynamicsOptions options;
-  options.brownian = true;
-  options.brownian_step = 1;
+  const Configuration2 start = moving(lattice_of_disks(2, 1e-9));
   FreeFlux flux;
   RunState2 state = begin_run(start, 0);
-  run(state, options, {linear_times(0.25, 20), 20, &flux, {}}, {});
+  run(state, brownian(1), {linear_times(0.25, 20), 20, &flux, {}}, {});
   EXPECT_EQ(state.counters.collisions, 0u);
   EXPECT_GT(std::abs(flux.moment), 0.1);
 }

@@ -1,23 +1,21 @@
 #include "edmd/soft/restitution_table.h"
-#include "core/io/h5.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <vector>
 
+#include "core/io/h5.h"
 #include "core/random/stream.h"
 #include "edmd/soft/linear_dashpot.h"
 #include "edmd/soft/viscoelastic.h"
+#include "tests/support/files.h"
+#include "tests/support/soft_particles.h"
 
 namespace vitrel {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double tolerance = 1e-5;
 constexpr PanelOptions coarse{tolerance, 0.02};
@@ -43,6 +41,13 @@ ScaledImpact random_impact(const RestitutionDomain& domain, Stream& draw) {
   const double d = domain.d.low == domain.d.high ? domain.d.low : uniform(domain.d, draw);
   const double g = uniform(domain.g, draw);
   return impact_at<Force>(g, uniform(domain.m, draw), d);
+}
+
+void expect_equal(const Restitution& found, const Restitution& expected) {
+  EXPECT_EQ(found.distance, expected.distance);
+  EXPECT_EQ(found.angle, expected.angle);
+  EXPECT_EQ(found.duration, expected.duration);
+  EXPECT_EQ(found.rate, expected.rate);
 }
 
 void expect_near(const Restitution& found, const Restitution& expected, const ScaledImpact& of) {
@@ -96,11 +101,7 @@ TYPED_TEST(TabulatedForce, IntegratesAndCountsWhatIsOutside) {
                                           {12, 0, impact_at<TypeParam>(0, 2.5, -0.7).damping},
                                           {12, 12, 0}};
   for (const ScaledImpact& of : outside) {
-    const Restitution found = tabulated(of), expected = integrated(of);
-    EXPECT_EQ(found.distance, expected.distance);
-    EXPECT_EQ(found.angle, expected.angle);
-    EXPECT_EQ(found.duration, expected.duration);
-    EXPECT_EQ(found.rate, expected.rate);
+    expect_equal(tabulated(of), integrated(of));
   }
   EXPECT_EQ(tabulated.integrated(), outside.size());
 }
@@ -124,10 +125,7 @@ constexpr Force soft_material() {
 }
 
 ContactPair pair_of(double radius1, double radius2) {
-  const auto mass = [](double radius) {
-    return 1140 * 4 * std::numbers::pi / 3 * std::pow(radius, 3);
-  };
-  return contact_pair(radius1, mass(radius1), radius2, mass(radius2));
+  return contact_pair(radius1, sphere_mass(radius1), radius2, sphere_mass(radius2));
 }
 
 // What the impacts of a scene need: two dimensions for one kind of pair, three for several.
@@ -154,21 +152,14 @@ TYPED_TEST(TabulatedForce, DomainOfAScene) {
   }
 }
 
-class StoredTableFile : public testing::Test {
+class StoredTableFile : public Files {
  protected:
-  StoredTableFile() {
-    std::string pattern = (fs::temp_directory_path() / "vitrel_table_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~StoredTableFile() override { fs::remove_all(folder_); }
-
   CachedTable keep(const RestitutionDomain& domain = domain_, double exact = tolerance,
                    const ForceForm& form = form_of<Viscoelastic>()) const {
-    return load_or_build_table(folder_ / "table.h5", form, domain, {exact, 0.02}, 2);
+    return load_or_build_table(file("table.h5"), form, domain, {exact, 0.02}, 2);
   }
 
   static constexpr RestitutionDomain domain_{{-1, 1}, {2, 3}, {-0.7, -0.7}};
-  fs::path folder_;
 };
 
 void expect_equal(const RestitutionTable& one, const RestitutionTable& two) {
@@ -178,10 +169,7 @@ void expect_equal(const RestitutionTable& one, const RestitutionTable& two) {
     const ScaledImpact of = impact_at<Viscoelastic>(g, draw.uniform(2, 3), -0.7);
     const auto first = one(of), second = two(of);
     ASSERT_TRUE(first && second);
-    EXPECT_EQ(first->distance, second->distance);
-    EXPECT_EQ(first->angle, second->angle);
-    EXPECT_EQ(first->duration, second->duration);
-    EXPECT_EQ(first->rate, second->rate);
+    expect_equal(*first, *second);
   }
 }
 
@@ -217,12 +205,12 @@ TEST_F(StoredTableFile, IsBuiltAgainForAnythingElse) {
 // Cut short anywhere, or with any byte changed, the file is replaced, or what it says is the same.
 TEST_F(StoredTableFile, IsBuiltAgainIfDamaged) {
   const CachedTable whole = keep();
-  const fs::path file = folder_ / "table.h5";
-  const auto size = fs::file_size(file);
+  const std::filesystem::path path = file("table.h5");
+  const auto size = file_size(path);
   int rebuilt = 0;
   for (std::uintmax_t byte = 0; byte < size; byte += 97) {
     {
-      std::fstream bytes(file, std::ios::binary | std::ios::in | std::ios::out);
+      std::fstream bytes(path, std::ios::binary | std::ios::in | std::ios::out);
       bytes.seekg(static_cast<std::streamoff>(byte));
       const auto old = static_cast<char>(bytes.get());
       bytes.seekp(static_cast<std::streamoff>(byte));
@@ -234,9 +222,9 @@ TEST_F(StoredTableFile, IsBuiltAgainIfDamaged) {
     EXPECT_TRUE(keep().loaded);
   }
   EXPECT_GT(rebuilt, 3);
-  fs::resize_file(file, size / 2);
+  resize_file(path, size / 2);
   EXPECT_FALSE(keep().loaded);
-  fs::resize_file(file, 0);
+  resize_file(path, 0);
   EXPECT_FALSE(keep().loaded);
   EXPECT_TRUE(keep().loaded);
 }
@@ -246,12 +234,12 @@ TEST_F(StoredTableFile, IsBuiltAgainIfItWasChanged) {
   const CachedTable whole = keep();
   for (const char* name : {"middle", "panels"}) {
     {
-      h5::File file = h5::File::open(folder_ / "table.h5", h5::Access::write);
-      h5::Dataset stored = file.root().dataset(name);
+      h5::File opened = h5::File::open(file("table.h5"), h5::Access::write);
+      h5::Dataset stored = opened.root().dataset(name);
       std::vector<double> numbers = stored.read<double>();
       numbers.at(numbers.size() / 2) += 1e-9;
       stored.write<double>(numbers);
-      file.close();
+      opened.close();
     }
     const CachedTable again = keep();
     EXPECT_FALSE(again.loaded) << name;
@@ -261,8 +249,8 @@ TEST_F(StoredTableFile, IsBuiltAgainIfItWasChanged) {
 }
 
 TEST_F(StoredTableFile, WithoutAPlaceItIsAsGood) {
-  const auto kept = load_or_build_table(folder_ / "missing" / "table.h5", form_of<Viscoelastic>(),
-                                        domain_, coarse, 1);
+  const auto kept =
+      load_or_build_table(file("missing/table.h5"), form_of<Viscoelastic>(), domain_, coarse, 1);
   EXPECT_NE(kept.save_error.find("missing"), std::string::npos);
   expect_equal(kept.table, keep().table);
 }

@@ -6,7 +6,7 @@
 #include "core/contact/contact_queries.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
-#include "edmd/collision_rule.h"
+#include "tests/support/conserved.h"
 
 namespace vitrel {
 namespace {
@@ -78,30 +78,9 @@ struct TouchingPair {
   }
   double speed() const { return slip().dot(contact.normal); }
 
-  Vec<Dim> momentum() const {
-    return one.mass * one.motion.velocity + two.mass * two.motion.velocity;
+  Conserved<Dim> sums() const {
+    return {{one.pose, one.motion, one.inertia()}, {two.pose, two.motion, two.inertia()}};
   }
-  AngularVelocity<Dim> own_momentum(const BodyInContact<Dim>& body) const {
-    if constexpr (Dim == 2)
-      return body.motion.angular_velocity / body.inertia().inverse_moment;
-    else
-      return body.inertia().inverse_moment.inverse() * body.motion.angular_velocity;
-  }
-  AngularVelocity<Dim> angular_momentum() const {
-    AngularVelocity<Dim> sum = own_momentum(one) + own_momentum(two);
-    for (const BodyInContact<Dim>* body : {&one, &two})
-      sum += body->mass * cross(body->pose.position, body->motion.velocity);
-    return sum;
-  }
-  double energy(const BodyInContact<Dim>& body) const {
-    double rotation = 0;
-    if constexpr (Dim == 2)
-      rotation = own_momentum(body) * body.motion.angular_velocity;
-    else
-      rotation = own_momentum(body).dot(body.motion.angular_velocity);
-    return 0.5 * (body.mass * body.motion.velocity.squaredNorm() + rotation);
-  }
-  double energy() const { return energy(one) + energy(two); }
 
   RoughImpact<Dim> collide(const ContactLaw& law) {
     return collide_rough(one.motion, one.inertia(), two.motion, two.inertia(), contact,
@@ -114,13 +93,6 @@ ContactLaw random_law(Stream& draw) {
   return {draw.below(8) == 0 ? 0 : draw.uniform(0, 1), friction, draw.uniform(-1, 1)};
 }
 
-double magnitude(double x) {
-  return std::abs(x);
-}
-double magnitude(const Vec3& x) {
-  return x.norm();
-}
-
 /// The two parts of the energy of the relative motion at the contact, from the impulse that takes the normal part away,
 /// and from that which takes all of it away; each found by letting the bodies collide.
 template <int Dim>
@@ -131,13 +103,19 @@ struct ContactEnergies {
     TouchingPair<Dim> plastic = pair, sticking = pair;
     plastic.collide({0.0, 0, 0});
     sticking.collide({0.0, ContactLaw::no_slip, 0});
-    along = pair.energy() - plastic.energy();
-    across = plastic.energy() - sticking.energy();
+    along = pair.sums().energy - plastic.sums().energy;
+    across = plastic.sums().energy - sticking.sums().energy;
   }
 };
 
-template <int Dim>
-void expect_the_law(std::uint64_t impacts) {
+template <class Dimension>
+class RoughCollision : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(RoughCollision, Dimensions);
+
+TYPED_TEST(RoughCollision, NeverCreatesEnergy) {
+  constexpr int Dim = TypeParam::value;
+  constexpr std::uint64_t impacts = 5'000'000;
   Stream draw(31, Purpose::tests, Dim);
   std::uint64_t stuck = 0, slid = 0;
   for (std::uint64_t k = 0; k < impacts; ++k) {
@@ -146,13 +124,13 @@ void expect_the_law(std::uint64_t impacts) {
     const ContactLaw law = random_law(draw);
     const double speed = before.speed(), e = law.restitution(speed);
     const RoughImpact<Dim> result = pair.collide(law);
-    const double energy = before.energy();
+    const Conserved<Dim> now = pair.sums(), then = before.sums();
     // Long bodies amplify the rounding of their motion by the square of their aspect ratio.
-    const double rounding = 1e-13 * (1 + energy);
-    ASSERT_LE(pair.energy(), energy + rounding);
-    ASSERT_NEAR(pair.energy(), energy - result.dissipated, 10 * rounding);
-    ASSERT_LT((pair.momentum() - before.momentum()).norm(), rounding);
-    ASSERT_LT(magnitude(pair.angular_momentum() - before.angular_momentum()), 30 * rounding);
+    const double rounding = 1e-13 * (1 + then.energy);
+    ASSERT_LE(now.energy, then.energy + rounding);
+    ASSERT_NEAR(now.energy, then.energy - result.dissipated, 10 * rounding);
+    ASSERT_LT((now.momentum - then.momentum).norm(), rounding);
+    ASSERT_LT(magnitude(now.angular_momentum - then.angular_momentum), 30 * rounding);
     ASSERT_NEAR(pair.speed(), -e * speed, 30 * rounding);
     // Coulomb's cone.
     const double pressing = -result.impulse.dot(before.contact.normal);
@@ -167,16 +145,9 @@ void expect_the_law(std::uint64_t impacts) {
   EXPECT_GT(slid, impacts / 20);
 }
 
-TEST(RoughCollision, NeverCreatesEnergyInThePlane) {
-  expect_the_law<2>(5'000'000);
-}
-TEST(RoughCollision, NeverCreatesEnergyInSpace) {
-  expect_the_law<3>(5'000'000);
-}
-
 // E' = e² E_n + (1 − κ)² E_t with κ = 1 + β where the contact sticks.
-template <int Dim>
-void expect_energies_of_sticking_contacts() {
+TYPED_TEST(RoughCollision, SplitsTheEnergy) {
+  constexpr int Dim = TypeParam::value;
   Stream draw(32, Purpose::tests, Dim);
   int compared = 0;
   for (int k = 0; k < 20000; ++k) {
@@ -191,26 +162,20 @@ void expect_energies_of_sticking_contacts() {
     if (all_lost.slip().norm() > 1e-10) continue;  // the cone
     const RoughImpact<Dim> result = pair.collide(law);
     const double lost = (1 - e * e) * energies.along + (1 - beta * beta) * energies.across;
-    if (std::abs(result.dissipated - lost) > 1e-9 * before.energy()) {
+    const double energy = before.sums().energy;
+    if (std::abs(result.dissipated - lost) > 1e-9 * energy) {
       // The impulse had to be lowered since it would have pulled.
-      EXPECT_NEAR(-result.impulse.dot(before.contact.normal), 0, 1e-12 * (1 + before.energy()));
+      EXPECT_NEAR(-result.impulse.dot(before.contact.normal), 0, 1e-12 * (1 + energy));
       continue;
     }
     ++compared;
-    EXPECT_NEAR(pair.energy(), before.energy() - lost, 1e-12 * (1 + before.energy()));
+    EXPECT_NEAR(pair.sums().energy, energy - lost, 1e-12 * (1 + energy));
   }
   EXPECT_GT(compared, 10000);
 }
 
-TEST(RoughCollision, SplitsTheEnergyInThePlane) {
-  expect_energies_of_sticking_contacts<2>();
-}
-TEST(RoughCollision, SplitsTheEnergyInSpace) {
-  expect_energies_of_sticking_contacts<3>();
-}
-
-template <int Dim>
-void expect_smooth_limit() {
+TYPED_TEST(RoughCollision, WithoutFrictionIsTheSmoothOne) {
+  constexpr int Dim = TypeParam::value;
   Stream draw(33, Purpose::tests, Dim);
   for (int k = 0; k < 2000; ++k) {
     TouchingPair<Dim> rough(draw);
@@ -228,17 +193,10 @@ void expect_smooth_limit() {
   }
 }
 
-TEST(RoughCollision, WithoutFrictionIsTheSmoothOneInThePlane) {
-  expect_smooth_limit<2>();
-}
-TEST(RoughCollision, WithoutFrictionIsTheSmoothOneInSpace) {
-  expect_smooth_limit<3>();
-}
-
 // Walton and Braun: of two equal round bodies with q = I/(m R²), the tangential velocity of the surfaces becomes −β times
 // itself where they stick, and otherwise μ (1 + e) (1 + 1/q) u_n smaller.
-template <int Dim>
-void expect_walton_and_braun() {
+TYPED_TEST(RoughCollision, OfRoundBodiesIsThatOfWaltonAndBraun) {
+  constexpr int Dim = TypeParam::value;
   Stream draw(34, Purpose::tests, Dim);
   const double q = Dim == 2 ? 0.5 : 0.4;
   int stuck = 0;
@@ -246,10 +204,7 @@ void expect_walton_and_braun() {
     TouchingPair<Dim> pair(draw);
     const double radius = draw.uniform(0.3, 3);
     for (BodyInContact<Dim>* body : {&pair.one, &pair.two}) {
-      if constexpr (Dim == 2)
-        body->shape = {radius, radius};
-      else
-        body->shape = {Vec3::Constant(radius)};
+      body->shape = round_shape<Dim>(radius);
       body->mass = 1.7;
     }
     const Vec<Dim>& n = pair.contact.normal;
@@ -268,13 +223,6 @@ void expect_walton_and_braun() {
   }
   EXPECT_GT(stuck, 100);
   EXPECT_LT(stuck, 1900);
-}
-
-TEST(RoughCollision, OfDisksIsThatOfWaltonAndBraun) {
-  expect_walton_and_braun<2>();
-}
-TEST(RoughCollision, OfSpheresIsThatOfWaltonAndBraun) {
-  expect_walton_and_braun<3>();
 }
 
 }  // namespace

@@ -6,32 +6,16 @@
 
 #include "core/error.h"
 #include "core/state/check.h"
-#include "edmd/brownian.h"
-#include "edmd/run.h"
+#include "tests/support/conserved.h"
+#include "tests/support/equal_bodies.h"
 #include "tests/support/motion.h"
-#include "tests/support/scenes.h"
-#include "tests/support/solids.h"
+#include "tests/support/runs.h"
 
 namespace vitrel {
 namespace {
 
-DynamicsOptions with(const ContactLaws& laws, double contact_duration = 0) {
-  DynamicsOptions options;
-  options.engine.laws = laws;
-  options.engine.contact_duration = contact_duration;
-  return options;
-}
-
-template <int Dim>
-RunState<Dim> run_until(const Configuration<Dim>& start, double end,
-                        const DynamicsOptions& options) {
-  RunState<Dim> state = begin_run(start, 0);
-  run(state, options, {{}, end, nullptr, {}}, {});
-  return state;
-}
-
 Configuration2 disks(double packing_fraction = 0.3) {
-  return moving(square_lattice(10, packing_fraction, 0, [](std::size_t) { return Ellipse{1, 1}; }));
+  return moving(lattice_of_disks(10, packing_fraction));
 }
 Configuration2 ellipses() {
   return moving(square_lattice(10, 0.3, 0.8, [](std::size_t i) {
@@ -42,13 +26,23 @@ Configuration3 solids(const std::function<Ellipsoid(std::size_t)>& shape) {
   return moving(cubic_lattice(5, 0.1, shape));
 }
 Configuration3 spheres() {
-  return solids([](std::size_t) { return Ellipsoid{Vec3::Ones()}; });
+  return moving(cubic_lattice(5, 0.1, Ellipsoid{}));
 }
 Configuration3 spheroids() {
   return solids([](std::size_t i) { return i % 3 ? prolate(2) : Ellipsoid{Vec3::Ones()}; });
 }
 Configuration3 all_kinds() {
   return solids([](std::size_t i) { return i % 2 ? Ellipsoid{{1.6, 1, 0.7}} : oblate(2); });
+}
+
+/// check(state) of every kind of particles.
+template <class Check>
+void for_all_kinds(const Check& check, double fraction_of_disks = 0.3) {
+  check(disks(fraction_of_disks));
+  check(ellipses());
+  check(spheres());
+  check(spheroids());
+  check(all_kinds());
 }
 
 /// Energy has no source but what the contact-time model counts, which is little, and that is a drift of the energy.
@@ -68,77 +62,41 @@ template <int Dim>
 double spin_of_round_particles(const Configuration<Dim>& c) {
   double sum = 0;
   for (std::size_t i = 0; i < c.size(); ++i)
-    if (c.shape[i].is_round()) {
-      if constexpr (Dim == 2)
-        sum += std::abs(c.angular_velocity[i]);
-      else
-        sum += c.angular_velocity[i].norm();
-    }
+    if (c.shape[i].is_round()) sum += magnitude(c.angular_velocity[i]);
   return sum;
-}
-
-template <int Dim>
-void expect_conserving(const Configuration<Dim>& start, const ContactLaw& law) {
-  const RunState<Dim> end = run_until(start, 5, with(law));
-  EXPECT_GT(end.counters.collisions, start.size());
-  EXPECT_LT(end.energy_drift, 1e-12);
-  EXPECT_LT(end.largest_momentum, 1e-11);
-  EXPECT_TRUE(exact_check(end.configuration).clean());
-  if (rotor_count(start) < start.size()) {
-    EXPECT_GT(spin_of_round_particles(end.configuration), 1);
-  }
 }
 
 TEST(RoughDynamics, ConservesWhatItShould) {
   for (const ContactLaw& law :
        {ContactLaw{1, ContactLaw::no_slip, 1}, ContactLaw{0.9, 0.3, 0.4}, ContactLaw{0.8, 2, -0.5},
-        ContactLaw{NormalRestitution::viscoelastic(0.8, 1), 0.5, 0}}) {
-    expect_conserving(disks(), law);
-    expect_conserving(ellipses(), law);
-    expect_conserving(spheres(), law);
-    expect_conserving(spheroids(), law);
-    expect_conserving(all_kinds(), law);
-  }
+        ContactLaw{NormalRestitution::viscoelastic(0.8, 1), 0.5, 0}})
+    for_all_kinds([&](const auto& start) {
+      const auto end = run_until(start, 5, with_laws(law));
+      EXPECT_GT(end.counters.collisions, start.size());
+      EXPECT_LT(end.energy_drift, 1e-12);
+      EXPECT_LT(end.largest_momentum, 1e-11);
+      EXPECT_TRUE(exact_check(end.configuration).clean());
+      if (rotor_count(start) < start.size()) {
+        EXPECT_GT(spin_of_round_particles(end.configuration), 1);
+      }
+    });
 }
 
-// In a box so wide that nothing meets its images: of spheroids, which spin about their axes, the stored angular
-// velocity is L/I⊥.
-template <int Dim>
-void expect_conserved_angular_momentum(Configuration<Dim> start) {
-  start.box = PeriodicBox<Dim>(start.box.lengths() * 40);
-  for (std::size_t i = 0; i < start.size(); ++i) start.velocity[i] -= 0.3 * start.position[i];
-  const auto angular_momentum = [](const Configuration<Dim>& c) {
-    AngularVelocity<Dim> sum = 0 * c.angular_velocity[0];
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      sum += c.mass[i] * cross(c.position[i], c.velocity[i]);
-      if constexpr (Dim == 2)
-        sum += c.inertia(i) * c.angular_velocity[i];
-      else
-        sum += c.orientation[i] *
-               c.inertia(i).cwiseProduct(c.orientation[i].conjugate() * c.angular_velocity[i]);
-    }
-    return sum;
-  };
-  const RunState<Dim> end = run_until(start, 10, with(ContactLaw{0.9, 0.7, 0.3}));
-  EXPECT_GT(end.counters.collisions, 20u);
-  const AngularVelocity<Dim> change = angular_momentum(end.configuration) - angular_momentum(start);
-  if constexpr (Dim == 2)
-    EXPECT_NEAR(change, 0, 1e-10);
-  else
-    EXPECT_LT(change.norm(), 1e-10);
-}
-
+// Of spheroids, which spin about their axes, the stored angular velocity is L/I⊥.
 TEST(RoughDynamics, ConservesAngularMomentum) {
-  expect_conserved_angular_momentum(disks());
-  expect_conserved_angular_momentum(ellipses());
-  expect_conserved_angular_momentum(spheres());
-  expect_conserved_angular_momentum(spheroids());
-  expect_conserved_angular_momentum(all_kinds());
+  for_all_kinds([]<int Dim>(const Configuration<Dim>& scene) {
+    const Configuration<Dim> start = in_an_open_box(scene);
+    const RunState<Dim> end = run_until(start, 10, with_laws(ContactLaw{0.9, 0.7, 0.3}));
+    EXPECT_GT(end.counters.collisions, 20u);
+    const AngularVelocity<Dim> change =
+        angular_momentum(end.configuration) - angular_momentum(start);
+    EXPECT_LT(magnitude(change), 1e-10);
+  });
 }
 
 // The angle of a disk between two collisions is that of its spin.
 TEST(RoughDynamics, RoundParticlesTurnAsTheySpin) {
-  const DynamicsOptions options = with(ContactLaw{1, ContactLaw::no_slip, 1});
+  const DynamicsOptions options = with_laws(ContactLaw{1, ContactLaw::no_slip, 1});
   const double step = 1e-4;
   const Configuration2 one = run_until(disks(), 5, options).configuration,
                        two = run_until(disks(), 5 + step, options).configuration;
@@ -161,11 +119,11 @@ TEST(RoughDynamics, RoundParticlesTurnAsTheySpin) {
 
 // Without friction all is as with the smooth law, to the last bit, whatever else the law says.
 TEST(RoughDynamics, WithoutFrictionIsBitIdentical) {
-  EXPECT_EQ(difference(run_until(disks(), 5, with(0.9)).configuration,
-                       run_until(disks(), 5, with(ContactLaw{0.9, 0, 0.7})).configuration),
+  EXPECT_EQ(difference(run_until(disks(), 5, with_laws(0.9)).configuration,
+                       run_until(disks(), 5, with_laws(ContactLaw{0.9, 0, 0.7})).configuration),
             0);
   EXPECT_EQ(difference(run_until(spheroids(), 5, {}).configuration,
-                       run_until(spheroids(), 5, with(ContactLaw{1, 3, -1})).configuration),
+                       run_until(spheroids(), 5, with_laws(ContactLaw{1, 3, -1})).configuration),
             0);
 }
 
@@ -174,9 +132,9 @@ TEST(RoughDynamics, PairsOfSpeciesHaveTheirOwnLaws) {
   c.species_names = {"A", "B"};
   ContactLaws laws(2, {});
   laws.set(0, 1, {0.5, 1, 0});
-  EXPECT_EQ(run_until(c, 5, with(laws)).counters.dissipated, 0);
+  EXPECT_EQ(run_until(c, 5, with_laws(laws)).counters.dissipated, 0);
   c.species[7] = 1;
-  const RunState2 end = run_until(c, 5, with(laws));
+  const RunState2 end = run_until(c, 5, with_laws(laws));
   EXPECT_GT(end.counters.dissipated, 0);
   EXPECT_LT(end.energy_drift, 1e-12);
   for (std::size_t i = 0; i < c.size(); ++i)
@@ -194,7 +152,7 @@ TEST(RoughDynamics, PlasticCollisionsLeaveNoNormalSpeed) {
   for (const double offset : {0., 0.5}) {
     c.position = {Vec2(-2, 0), Vec2(2, offset)};
     c.velocity = {Vec2(1, 0), Vec2(-1, 0)};
-    const RunState2 end = run_until(c, 2, with(0.0));
+    const RunState2 end = run_until(c, 2, with_laws(0.0));
     EXPECT_LE(end.counters.collisions, 2u);
     const Vec2 v = end.configuration.velocity[1] - end.configuration.velocity[0];
     EXPECT_NEAR(v.norm(), 2 * offset / 2, 1e-9);
@@ -206,14 +164,11 @@ TEST(RoughDynamics, PlasticCollisionsLeaveNoNormalSpeed) {
 // is accounted for.
 TEST(ContactTimeModel, GoesOnWhereRunsStop) {
   const Configuration2 start = ellipses();
-  try {
-    run_until(start, 20, with(0.3));
-    FAIL() << "no collapse";
-  } catch (const InvariantError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("dynamics.contact_duration"));
-  }
+  const auto says = testing::HasSubstr("dynamics.contact_duration");
+  EXPECT_THAT([&] { run_until(start, 20, with_laws(0.3)); },
+              testing::ThrowsMessage<InvariantError>(says));
   for (const double friction : {0., 0.5}) {
-    const RunState2 end = run_until(start, 20, with(ContactLaw{0.3, friction, 0}, 1e-4));
+    const RunState2 end = run_until(start, 20, with_laws(ContactLaw{0.3, friction, 0}, 1e-4));
     EXPECT_GT(end.counters.short_flights, 10u);
     EXPECT_GT(end.counters.spared, 0);
     expect_balanced(end);
@@ -222,55 +177,42 @@ TEST(ContactTimeModel, GoesOnWhereRunsStop) {
 }
 
 // Clusters without any normal speed: surfaces that turn towards each other touch again and again.
-template <int Dim>
-void expect_to_stay_hard(const Configuration<Dim>& start) {
-  for (const double contact_duration : {1e-7, 1e-5, 0.1, 10.})
-    for (const double friction : {0., 0.5}) {
-      SCOPED_TRACE(testing::Message() << "t_c = " << contact_duration << ", friction " << friction);
-      const RunState<Dim> end =
-          run_until(start, 6, with(ContactLaw{0., friction, 0}, contact_duration));
-      expect_balanced(end);
-      EXPECT_TRUE(exact_check(end.configuration).clean());
-    }
-}
-
 TEST(ContactTimeModel, KeepsPlasticParticlesOfAllShapesHard) {
-  expect_to_stay_hard(disks(0.5));
-  expect_to_stay_hard(ellipses());
-  expect_to_stay_hard(spheres());
-  expect_to_stay_hard(spheroids());
-  expect_to_stay_hard(all_kinds());
+  const auto expect_hard = [](const auto& start) {
+    for (const double duration : {1e-7, 1e-5, 0.1, 10.})
+      for (const double friction : {0., 0.5}) {
+        SCOPED_TRACE(testing::Message() << "t_c = " << duration << ", friction " << friction);
+        const auto end = run_until(start, 6, with_laws(ContactLaw{0., friction, 0}, duration));
+        expect_balanced(end);
+        EXPECT_TRUE(exact_check(end.configuration).clean());
+      }
+  };
+  for_all_kinds(expect_hard, 0.5);
 }
 
 // The law leaves an elastic gas alone, however long contacts would take.
-template <int Dim>
-void expect_nothing_of_elastic(const Configuration<Dim>& start) {
-  const RunState<Dim> without = run_until(start, 10, {});
-  for (const double contact_duration : {1e-3, 0.3, 3.}) {
-    const RunState<Dim> end = run_until(start, 10, with(1, contact_duration));
-    EXPECT_EQ(difference(end.configuration, without.configuration), 0);
-    EXPECT_LT(end.energy_drift, 1e-12);
-  }
-}
-
 TEST(ContactTimeModel, DoesNothingToElasticParticles) {
-  expect_nothing_of_elastic(disks());
-  expect_nothing_of_elastic(ellipses());
-  expect_nothing_of_elastic(spheres());
-  expect_nothing_of_elastic(spheroids());
-  expect_nothing_of_elastic(all_kinds());
+  for_all_kinds([](const auto& start) {
+    const auto without = run_until(start, 10);
+    for (const double contact_duration : {1e-3, 0.3, 3.}) {
+      const auto end = run_until(start, 10, with_laws(1, contact_duration));
+      EXPECT_EQ(difference(end.configuration, without.configuration), 0);
+      EXPECT_LT(end.energy_drift, 1e-12);
+    }
+  });
 }
 
 TEST(ContactTimeModel, DoesNothingToAThinGasOfRareCollisions) {
   const Configuration2 start = disks(0.02);
-  const RunState2 with_it = run_until(start, 5, with(0.9, 1e-9));
+  const RunState2 with_it = run_until(start, 5, with_laws(0.9, 1e-9));
   EXPECT_EQ(with_it.counters.short_flights, 0u);
-  EXPECT_EQ(difference(with_it.configuration, run_until(start, 5, with(0.9)).configuration), 0);
+  EXPECT_EQ(difference(with_it.configuration, run_until(start, 5, with_laws(0.9)).configuration),
+            0);
 }
 
 // Every step begins at kT = 1 again, whatever the collisions of the one before have taken.
 TEST(BrownianSteps, KeepAnInelasticGasHot) {
-  DynamicsOptions options = with(ContactLaw{0.5, 0.3, 0}, 1e-5);
+  DynamicsOptions options = with_laws(ContactLaw{0.5, 0.3, 0}, 1e-5);
   options.brownian = true;
   options.brownian_step = 0.5;
   const RunState2 end = run_until(ellipses(), 20, options);
@@ -311,7 +253,7 @@ TEST(Driving, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Driving, KeepsAnInelasticGasHot) {
-  DynamicsOptions options = with(0.8);
+  DynamicsOptions options = with_laws(0.8);
   options.driving = Driving{.interval = 0.02, .power = 0.5};
   const RunState2 end = run_until(disks(), 200, options);
   EXPECT_EQ(end.velocity_steps, 10000u);

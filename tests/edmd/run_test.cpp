@@ -7,27 +7,16 @@
 
 #include "core/contact/ellipse_gap.h"
 #include "core/error.h"
-#include "edmd/sampling.h"
+#include "tests/support/equal_bodies.h"
 #include "tests/support/motion.h"
-#include "tests/support/scenes.h"
+#include "tests/support/runs.h"
+#include "tests/support/same_state.h"
 
 namespace vitrel {
 namespace {
 
 Configuration2 thesis_scene() {
-  Configuration2 c =
-      square_lattice(10, 0.5, std::numbers::pi / 4, [](std::size_t) { return of_aspect_ratio(2); });
-  set_initial_velocities(c, 1, InitialVelocities::maxwell, Temperature::total);
-  return c;
-}
-
-Configuration2 mixture_scene() {
-  Configuration2 c = square_lattice(8, 0.4, std::numbers::pi / 4, [](std::size_t i) {
-    const double size = i % 2 ? 1.4 : 1;
-    return i % 4 < 2 ? Ellipse{size * std::sqrt(3.0), size / std::sqrt(3.0)} : Ellipse{size, size};
-  });
-  set_initial_velocities(c, 2, InitialVelocities::maxwell, Temperature::total);
-  return c;
+  return moving(square_lattice(10, 0.5, std::numbers::pi / 4, of_aspect_ratio(2)));
 }
 
 double smallest_gap(const Configuration2& c) {
@@ -67,32 +56,27 @@ TEST(Run, ThesisSceneStaysHardAndConserves) {
 }
 
 TEST(Run, MixtureOfSizesAndShapesStaysHardAndConserves) {
-  expect_hard_and_conserving(mixture_scene(), 20);
+  const Configuration2 mixture = square_lattice(8, 0.4, std::numbers::pi / 4, [](std::size_t i) {
+    const double size = i % 2 ? 1.4 : 1;
+    return i % 4 < 2 ? Ellipse{size * std::sqrt(3.0), size / std::sqrt(3.0)} : Ellipse{size, size};
+  });
+  expect_hard_and_conserving(moving(mixture, 2), 20);
 }
 
 TEST(Run, DisksStayHardAndConserve) {
-  Configuration2 c = square_lattice(10, 0.6, 0, [](std::size_t) { return Ellipse{1, 1}; });
-  set_initial_velocities(c, 3, InitialVelocities::maxwell, Temperature::total);
-  expect_hard_and_conserving(c, 10);
+  expect_hard_and_conserving(moving(lattice_of_disks(10, 0.6), 3), 10);
 }
 
 // Two long particles in a box little longer than one of them: pairs meet through several images and
 // every particle meets its own.
 TEST(Run, BoxOfOneParticleLengthStaysHard) {
-  Configuration2 c;
-  c.resize(2);
-  c.shape = {Ellipse{3, 0.2}, Ellipse{3, 0.2}};
-  c.box = PeriodicBox<2>(Vec2(6.05, 2.5));
+  Configuration2 c = equal_bodies(2, {3, 0.2}, Vec2(6.05, 2.5));
   c.position = {Vec2(0, -0.6), Vec2(1, 0.6)};
-  set_initial_velocities(c, 4, InitialVelocities::maxwell, Temperature::total);
-  expect_hard_and_conserving(c, 40);
+  expect_hard_and_conserving(moving(c, 4), 40);
 }
 
 TEST(Run, ALoneParticleMeetsItsOwnImages) {
-  Configuration2 c;
-  c.resize(1);
-  c.shape = {Ellipse{2, 0.5}};
-  c.box = PeriodicBox<2>(Vec2(5, 2));
+  Configuration2 c = equal_bodies(1, {2, 0.5}, Vec2(5, 2));
   c.velocity = {Vec2(0.1, 0.2)};
   c.angular_velocity = {1.0};
   RunState2 state = begin_run(c, 0);
@@ -144,8 +128,7 @@ void expect_continues_exactly(const DynamicsOptions& options) {
     ASSERT_EQ(at.ticks + rest_clock.ticks.size(), clock.ticks.size());
     EXPECT_TRUE(std::equal(rest_clock.ticks.begin(), rest_clock.ticks.end(),
                            clock.ticks.begin() + static_cast<std::ptrdiff_t>(at.ticks)));
-    EXPECT_EQ(resumed.configuration.position, state.configuration.position);
-    EXPECT_EQ(resumed.configuration.angle, state.configuration.angle);
+    expect_same_state(resumed.configuration, state.configuration);
     EXPECT_EQ(resumed.counters.collisions, state.counters.collisions);
     EXPECT_EQ(resumed.counters.predictions, state.counters.predictions);
     EXPECT_EQ(resumed.counters.virial, state.counters.virial);
@@ -160,10 +143,7 @@ TEST(Run, NewtonianContinuesBitByBit) {
 }
 
 TEST(Run, BrownianContinuesBitByBit) {
-  DynamicsOptions options;
-  options.brownian = true;
-  options.brownian_step = 0.1;
-  expect_continues_exactly(options);
+  expect_continues_exactly(brownian(0.1));
 }
 
 // Ticks<2> come at their times, those at 0, at the end and with a sample among them. Neither the samples nor
@@ -222,9 +202,7 @@ TEST(Run, BudgetStopsAtABlockEndAndTheRunGoesOn) {
 
 // However dense they are, blocks end, so that the run can be stopped; and it continues to the same bits.
 TEST(Run, ManySamplesTicksAndStepsEndABlock) {
-  DynamicsOptions options;
-  options.brownian = true;
-  options.brownian_step = 1e-5;
+  const DynamicsOptions options = brownian(1e-5);
   const double end = 0.01;
   RunControl stop_at_once;
   stop_at_once.should_stop = [] { return true; };
@@ -234,8 +212,7 @@ TEST(Run, ManySamplesTicksAndStepsEndABlock) {
   while (run(parts, options, plan_until(end), stop_at_once).end == StageEnd::stopped) ++blocks;
   EXPECT_EQ(blocks, 4);  // of 256 in all 1000 steps and 2 samples
   EXPECT_EQ(parts.velocity_steps, whole.velocity_steps);
-  EXPECT_EQ(parts.configuration.position, whole.configuration.position);
-  EXPECT_EQ(parts.configuration.velocity, whole.configuration.velocity);
+  expect_same_state(parts.configuration, whole.configuration);
 }
 
 Configuration2 scene_with_an_overlap() {
@@ -261,9 +238,7 @@ TEST(Run, CorrectionMovesAreCountedAndResolveTheOverlap) {
 
 TEST(Run, InelasticCollisionsDissipateWhatTheyCount) {
   RunState2 state = begin_run(thesis_scene(), 0);
-  DynamicsOptions options;
-  options.engine.laws = 0.9;
-  run(state, options, plan_until(5), {});
+  run(state, with_laws(0.9), plan_until(5), {});
   EXPECT_GT(state.counters.dissipated, 1);
   EXPECT_LE(state.energy_drift, 1e-12);
 }

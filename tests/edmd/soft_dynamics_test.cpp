@@ -3,19 +3,17 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <memory>
-#include <numbers>
 
 #include "core/error.h"
 #include "core/io/checkpoint.h"
 #include "core/random/stream.h"
 #include "core/state/check.h"
-#include "edmd/run.h"
 #include "edmd/soft/linear_dashpot.h"
-#include "edmd/soft/restitution_table.h"
-#include "edmd/soft/soft_contact.h"
 #include "edmd/soft/viscoelastic.h"
-#include "tests/support/scenes.h"
+#include "tests/support/conserved.h"
+#include "tests/support/runs.h"
+#include "tests/support/same_state.h"
+#include "tests/support/soft_particles.h"
 
 namespace vitrel {
 namespace {
@@ -23,13 +21,12 @@ namespace {
 template <ContactForce Force>
 DynamicsOptions soft(const Force& force, EarlyRelease early_release = EarlyRelease::alone) {
   DynamicsOptions options;
-  options.engine.soft_contact = std::make_shared<SoftContactOf<Force, IntegratedRestitution>>(
-      force, IntegratedRestitution(form_of<Force>()));
+  options.engine.soft_contact = integrated_contact(force);
   options.engine.early_release = early_release;
   return options;
 }
 
-/// Particles of these radii and of density 1140 in a wide box.
+/// Particles of these radii in a wide box.
 template <int Dim>
 Configuration<Dim> few(const std::vector<double>& radii, const std::vector<Vec<Dim>>& positions,
                        const std::vector<Vec<Dim>>& velocities) {
@@ -40,7 +37,7 @@ Configuration<Dim> few(const std::vector<double>& radii, const std::vector<Vec<D
   c.velocity = velocities;
   for (std::size_t i = 0; i < c.size(); ++i) {
     c.shape[i] = round_shape<Dim>(radii[i]);
-    c.mass[i] = 1140 * 4 * std::numbers::pi / 3 * std::pow(radii[i], 3);
+    c.mass[i] = sphere_mass(radii[i]);
   }
   return c;
 }
@@ -53,27 +50,18 @@ Vec<Dim> vector(double x, double y) {
   return v;
 }
 
+/// The state at the end, in which nothing overlaps that should not.
 template <int Dim>
-RunState<Dim> run_until(const Configuration<Dim>& start, double end,
-                        const DynamicsOptions& options) {
-  RunState<Dim> state = begin_run(start, 0);
-  RunPlan<Dim> plan;
-  plan.end_time = end;
-  run(state, options, plan, {});
+RunState<Dim> checked_run(const Configuration<Dim>& start, double end,
+                          const DynamicsOptions& options) {
+  RunState<Dim> state = run_until(start, end, options);
+  EXPECT_TRUE(exact_check(state.configuration).clean());
   return state;
 }
 
 template <int Dim>
 double energy(const Configuration<Dim>& c) {
   return mechanics(c).translational_energy;
-}
-
-/// Σ m r × v, the unwrapped positions being continuous.
-double angular_momentum(const Configuration2& c) {
-  double sum = 0;
-  for (std::size_t i = 0; i < c.size(); ++i)
-    sum += c.mass[i] * cross(c.unwrapped(i), c.velocity[i]);
-  return sum;
 }
 
 /// The equations of motion as they stand, from first contact on: fixed steps of Runge and Kutta's.
@@ -124,7 +112,7 @@ void expect_integrated_trajectory(const Force& force, double radius1, double rad
                                   double duration) {
   const double approach = 0.01;
   const Configuration<Dim> start = colliding_pair<Dim>(radius1, radius2, 5, 0.3, approach);
-  const RunState<Dim> state = run_until(start, approach + duration, soft(force));
+  const RunState<Dim> state = checked_run(start, approach + duration, soft(force));
   EXPECT_EQ(state.counters.collisions, 1u);
   EXPECT_TRUE(state.configuration.releases.empty());
   Configuration<Dim> direct = colliding_pair<Dim>(radius1, radius2, 5, 0.3, 0);
@@ -135,7 +123,6 @@ void expect_integrated_trajectory(const Force& force, double radius1, double rad
   }
   EXPECT_NEAR(energy(state.configuration) + state.counters.dissipated, energy(start),
               1e-13 * energy(start));
-  EXPECT_TRUE(exact_check(state.configuration).clean());
 }
 
 // Figure 6 of mueller2013 and beyond: unlike radii, damped, viscoelastic, disks.
@@ -180,7 +167,7 @@ Configuration2 pair_and_third(const Vec2& third) {
 
 TEST(SoftException, NoRoomToTurnIsAHardCollision) {
   const Configuration2 start = pair_and_third({0.24, -0.02});
-  const RunState2 state = run_until(start, 0.0011, soft(LinearDashpot{2000}));
+  const RunState2 state = checked_run(start, 0.0011, soft(LinearDashpot{2000}));
   EXPECT_EQ(state.counters.collisions, 1u);
   EXPECT_EQ(state.counters.blocked_rotations, 1u);
   const Vec2 n(0.3, std::sqrt(0.91));
@@ -188,7 +175,6 @@ TEST(SoftException, NoRoomToTurnIsAHardCollision) {
   EXPECT_LT((state.configuration.velocity[0] - start.velocity[0] + exchanged).norm(), 1e-12);
   EXPECT_LT((state.configuration.velocity[1] - start.velocity[1] - exchanged).norm(), 1e-12);
   EXPECT_TRUE(state.configuration.releases.empty());
-  EXPECT_TRUE(exact_check(state.configuration).clean());
 }
 
 // With damping the hard collision has the same loss along the normal.
@@ -288,16 +274,12 @@ TEST(SoftPair, MeetsAgainIfTurnedBackWhileClose) {
   EXPECT_THROW(run_until(start, 0.01, options), InvariantError);
 }
 
-/// A gas of two sizes in three dimensions, about 2 m/s.
+/// A gas of two sizes in three dimensions.
 Configuration3 gas(int cells, double packing_fraction) {
   Configuration3 c =
       cubic_lattice(cells, simple_cubic, packing_fraction, Ellipsoid{Vec3::Constant(0.1)});
-  Stream draw(8, Purpose::tests);
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    if (i % 3 == 0) c.shape[i] = round_shape<3>(0.07);
-    c.mass[i] = 1140 * 4 * std::numbers::pi / 3 * std::pow(c.shape[i].circumradius(), 3);
-    c.velocity[i] = 1.2 * Vec3{draw.normal(), draw.normal(), draw.normal()};
-  }
+  for (std::size_t i = 0; i < c.size(); i += 3) c.shape[i] = round_shape<3>(0.07);
+  set_in_motion(c, 8);
   const Vec3 drift = mechanics(c).momentum / static_cast<double>(c.size());
   for (std::size_t i = 0; i < c.size(); ++i) c.velocity[i] -= drift / c.mass[i];
   return c;
@@ -360,11 +342,10 @@ TEST(SoftGas, HardLimitIsTheHardEngine) {
     const double restitution = damping == 0 ? 1 : 0.8587581018;
     // c_dis depends on the pair's mass: one mass.
     Configuration3 c = start;
-    for (std::size_t i = 0; i < c.size(); ++i) c.mass[i] = 1;
+    c.mass.assign(c.size(), 1);
     const DynamicsOptions options =
         soft(LinearDashpot{stiffness, damping * std::sqrt(0.5 * stiffness)});
-    DynamicsOptions hard;
-    hard.engine.laws = restitution;
+    const DynamicsOptions hard = with_laws(restitution);
     const RunState3 soft_short = run_until(c, 0.2, options), hard_short = run_until(c, 0.2, hard);
     EXPECT_GT(hard_short.counters.collisions, c.size() / 8);
     EXPECT_EQ(soft_short.counters.collisions, hard_short.counters.collisions);
@@ -428,8 +409,7 @@ TEST(SoftGas, ContinuesBitByBit) {
     EXPECT_TRUE(exact_check(state.configuration).clean());
     state.configuration = kept(state.configuration);
     run(state, options, plan, {});
-    EXPECT_EQ(state.configuration.position, whole.configuration.position);
-    EXPECT_EQ(state.configuration.velocity, whole.configuration.velocity);
+    expect_same_state(state.configuration, whole.configuration);
     EXPECT_EQ(state.counters.collisions, whole.counters.collisions);
     EXPECT_EQ(state.counters.early_releases, whole.counters.early_releases);
     EXPECT_EQ(state.counters.dissipated, whole.counters.dissipated);
@@ -440,13 +420,11 @@ TEST(SoftGas, ContinuesBitByBit) {
 
 // New velocities replace those of after a contact, too.
 TEST(SoftGas, RedrawnVelocitiesEndContacts) {
-  DynamicsOptions options = soft(LinearDashpot{200, 1});
-  options.brownian = true;
-  options.brownian_step = 0.1;
-  const RunState2 state = run_until(soft_disks(), 10, options);
+  DynamicsOptions options = brownian(0.1);
+  options.engine.soft_contact = integrated_contact(LinearDashpot{200, 1});
+  const RunState2 state = checked_run(soft_disks(), 10, options);
   EXPECT_GT(state.counters.collisions, 100u);
   EXPECT_LT(state.energy_drift, 1e-12);
-  EXPECT_TRUE(exact_check(state.configuration).clean());
 }
 
 // Contacts that leave a four-hundredth of the speed, some of them without room: clusters lose all of it, down
@@ -455,11 +433,10 @@ TEST(SoftGas, NearlyPlasticItsClustersComeToAnEnd) {
   for (const double packing_fraction : {0.05, 0.1})
     for (const std::uint64_t seed : {1, 2, 3}) {
       const Configuration2 start = disks(8, packing_fraction, seed);
-      const RunState2 state = run_until(start, 1000, soft(LinearDashpot{200, 200}));
+      const RunState2 state = checked_run(start, 1000, soft(LinearDashpot{200, 200}));
       EXPECT_GT(state.counters.blocked_rotations, 0u);
       EXPECT_LT(energy(state.configuration), 0.2 * energy(start));
       EXPECT_LT(state.energy_drift, 1e-9);
-      EXPECT_TRUE(exact_check(state.configuration).clean());
     }
 }
 
@@ -468,12 +445,11 @@ TEST(SoftGas, NearlyPlasticItsClustersComeToAnEnd) {
 TEST(SoftGas, DenseAndStronglyDampedItRunsOn) {
   for (const double damping : {20., 200.}) {
     const Configuration2 start = disks(8, 0.6, 9);
-    const RunState2 state = run_until(start, 1000, soft(LinearDashpot{200, damping}));
+    const RunState2 state = checked_run(start, 1000, soft(LinearDashpot{200, damping}));
     EXPECT_GT(state.counters.short_flights, 0u);
     EXPECT_GT(state.counters.spared, 0);
     EXPECT_LT(energy(state.configuration), 0.5 * energy(start));
     EXPECT_LT(state.energy_drift, 1e-9);
-    EXPECT_TRUE(exact_check(state.configuration).clean());
   }
 }
 
@@ -489,10 +465,9 @@ TEST(SoftPair, PassesIfItHardlyApproaches) {
   const double drift = 1e-17;
   const Configuration2 start =
       few<2>({0.1, 0.1}, {{0, 0}, {0.2, 0}}, {{1 + drift, 1}, {1 - drift, -1}});
-  const RunState2 state = run_until(start, 1, soft(LinearDashpot{2000}));
+  const RunState2 state = checked_run(start, 1, soft(LinearDashpot{2000}));
   EXPECT_EQ(state.counters.collisions, 0u);
   EXPECT_LT((state.configuration.velocity[0] - start.velocity[0]).norm(), 1e-11);
-  EXPECT_TRUE(exact_check(state.configuration).clean());
 }
 
 // In a box hardly longer than two diameters a pair meets itself through its images, which turn with it.
@@ -504,10 +479,9 @@ TEST(SoftGas, InASmallBoxImagesOfThePartnerFindRoom) {
     Stream draw(seed, Purpose::tests);
     for (int i = 0; i < 3; ++i) c.velocity.push_back({draw.normal(), draw.normal(), draw.normal()});
     ASSERT_TRUE(exact_check(c).clean());
-    const RunState3 state = run_until(c, 200, soft(LinearDashpot{100}));
+    const RunState3 state = checked_run(c, 200, soft(LinearDashpot{100}));
     EXPECT_GT(state.counters.collisions, 100u);
     EXPECT_GT(state.counters.blocked_rotations, 0u);
-    EXPECT_TRUE(exact_check(state.configuration).clean());
   }
 }
 

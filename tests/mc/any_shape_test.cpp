@@ -2,34 +2,27 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
+#include <type_traits>
 
 #include "core/state/check.h"
 #include "mc/event_chain.h"
 #include "mc/pressure_sampler.h"
 #include "mc/sampler.h"
-#include "tests/support/mixtures.h"
-#include "tests/support/mixtures_in_space.h"
+#include "tests/support/all_mixtures.h"
 #include "tests/support/resting_bodies.h"
+#include "tests/support/same_state.h"
+#include "tests/support/visited_states.h"
 
 namespace vitrel {
 namespace {
 
 constexpr ExchangeOptions exchanges{.trials = 0.2, .collective = 2};
 
-template <class Moves>
-void sweep(Moves& moves, int sweeps) {
-  for (int k = 0; k < sweeps; ++k) {
-    moves.sweep();
-    moves.tune();
-  }
-}
-
 template <class Shape, int Dim>
 Configuration<Dim> after_local_moves(Configuration<Dim> c) {
   Sampler<Shape> sampler(c, 5);
   sampler.set_exchanges(exchanges);
-  sweep(sampler, 30);
+  sweep_and_tune(sampler, 30, 1);
   return c;
 }
 
@@ -37,23 +30,15 @@ template <class Shape, int Dim>
 Configuration<Dim> after_compression(Configuration<Dim> c) {
   constexpr double pressure = 5;
   PressureSampler<Shape> sampler(c, pressure, BoxChange::anisotropic, 5);
-  sweep(sampler, 30);
+  sweep_and_tune(sampler, 30, 1);
   return c;
-}
-
-template <int Dim>
-void expect_equal(Configuration<Dim> one, Configuration<Dim> two) {
-  EXPECT_EQ(one.position, two.position);
-  EXPECT_EQ(one.image, two.image);
-  EXPECT_EQ(orientations(one), orientations(two));
-  EXPECT_EQ(one.box.lengths(), two.box.lengths());
 }
 
 /// Overlaps are the same, so that all moves are.
 template <class Shape, class Plain, int Dim>
 void expect_the_same_moves(const Configuration<Dim>& start) {
-  expect_equal(after_local_moves<Plain>(start), after_local_moves<Shape>(start));
-  expect_equal(after_compression<Plain>(start), after_compression<Shape>(start));
+  expect_same_state(after_local_moves<Plain>(start), after_local_moves<Shape>(start));
+  expect_same_state(after_compression<Plain>(start), after_compression<Shape>(start));
 }
 
 /// Chains stop at a slightly different distance from the next particle.
@@ -69,25 +54,17 @@ void expect_hard_chains(Configuration<Dim> c) {
   }
 }
 
-class AnyShapeInThePlane : public testing::TestWithParam<Mixture> {};
+class AnyShape : public MixtureTest {};
 
-TEST_P(AnyShapeInThePlane, MovesLikeTheEllipsesThatItIs) {
-  const Configuration2 start = inserted_mixture(GetParam());
-  expect_the_same_moves<Ellipse, PlainEllipse>(start);
-  expect_hard_chains<PlainEllipse>(start);
+TEST_P(AnyShape, MovesLikeTheEllipsesOrEllipsoidsThatItIs) {
+  with_inserted([]<int Dim>(const Configuration<Dim>& start) {
+    using Plain = std::conditional_t<Dim == 2, PlainEllipse, PlainEllipsoid>;
+    expect_the_same_moves<ParticleShape<Dim>, Plain>(start);
+    expect_hard_chains<Plain>(start);
+  });
 }
 
-INSTANTIATE_TEST_SUITE_P(Mixtures, AnyShapeInThePlane, testing::ValuesIn(mixtures()));
-
-class AnyShapeInSpace : public testing::TestWithParam<MixtureInSpace> {};
-
-TEST_P(AnyShapeInSpace, MovesLikeTheEllipsoidsThatItIs) {
-  const Configuration3 start = inserted_mixture(GetParam());
-  expect_the_same_moves<Ellipsoid, PlainEllipsoid>(start);
-  expect_hard_chains<PlainEllipsoid>(start);
-}
-
-INSTANTIATE_TEST_SUITE_P(Mixtures, AnyShapeInSpace, testing::ValuesIn(mixtures_in_space()));
+INSTANTIATE_TEST_SUITE_P(Mixtures, AnyShape, testing::ValuesIn(all_mixtures()));
 
 }  // namespace
 }  // namespace vitrel

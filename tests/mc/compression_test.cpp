@@ -1,15 +1,17 @@
 #include "mc/compression.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
-#include <vector>
+#include <array>
 
 #include "core/state/check.h"
 #include "mc/pressure_sampler.h"
 #include "tests/support/fluids.h"
-#include "tests/support/statistics.h"
+#include "tests/support/same_state.h"
+#include "tests/support/stops.h"
+#include "tests/support/visited_states.h"
 
 namespace vitrel {
 namespace {
@@ -22,16 +24,10 @@ TEST(PressureSampler, VolumeOfOneParticleFollowsTheGammaDistribution) {
     const double pressure = 0.0005;  // V ≈ 4000
     PressureSampler sampler(one, pressure, change, 1);
     sampler.set_box_step(1.5);
-    std::vector<double> means;
-    for (int block = 0; block < 100; ++block) {
-      double sum = 0;
-      for (int sweep = 0; sweep < 2000; ++sweep) {
-        sampler.sweep();
-        sum += pressure * one.box.volume();
-      }
-      means.push_back(sum / 2000);
-    }
-    const Estimate volume = estimate(means);
+    const auto measure = [&] { return std::array{pressure * one.box.volume()}; };
+    const Series<1> means = block_means(
+        100, 2000, [&] { sampler.sweep(); }, measure);
+    const Estimate volume = estimate(means[0]);
     EXPECT_NEAR(volume.mean, 2, 3 * volume.error);
     EXPECT_LT(volume.error, 0.02);
   }
@@ -74,43 +70,42 @@ TEST(PressureSampler, SameStateForAnyNumberOfThreadsAndWhenContinued) {
   for (int sweep = 0; sweep < 25; ++sweep) first.sweep();
   PressureSampler second(three, 8, BoxChange::anisotropic, 5, first.moves(), first.box());
   for (int sweep = 25; sweep < 60; ++sweep) second.sweep();
-  EXPECT_EQ(one.position, two.position);
-  EXPECT_EQ(one.angle, two.angle);
-  EXPECT_EQ(one.box.lengths(), two.box.lengths());
-  EXPECT_EQ(one.position, three.position);
-  EXPECT_EQ(one.box.lengths(), three.box.lengths());
+  expect_same_state(one, two);
+  expect_same_state(one, three);
+}
+
+/// The end of a compression that is not stopped.
+struct Compressed : StageReport, CompressionState {};
+Compressed compressed(Configuration2& c, const CompressionOptions& options) {
+  Compressed result;
+  static_cast<StageReport&>(result) = compress(c, options, 1, result, {});
+  EXPECT_TRUE(exact_check(c).clean());
+  return result;
 }
 
 TEST(Compression, EndsExactlyAtThePackingFraction) {
   Configuration2 c = inserted_fluid(100, 2, 0.3);
-  CompressionState state;
-  const StageReport report =
-      compress(c, {.pressure = 30, .packing_fraction = 0.6, .sweeps = 100'000}, 1, state, {});
-  EXPECT_EQ(report.end, StageEnd::reached);
+  const Compressed end =
+      compressed(c, {.pressure = 30, .packing_fraction = 0.6, .sweeps = 100'000});
+  EXPECT_EQ(end.end, StageEnd::reached);
   EXPECT_NEAR(packing_fraction(c), 0.6, 1e-12);
-  EXPECT_TRUE(exact_check(c).clean());
-  EXPECT_EQ(state.moves.next_sweep, state.packing_fraction.size());
+  EXPECT_EQ(end.moves.next_sweep, end.CompressionState::packing_fraction.size());
 }
 
 TEST(Compression, SaysWhenThePressureDoesNotSuffice) {
   Configuration2 c = inserted_fluid(100, 2, 0.3);
-  CompressionState state;
-  const StageReport report =
-      compress(c, {.pressure = 2, .packing_fraction = 0.8, .sweeps = 100'000}, 1, state, {});
-  EXPECT_EQ(report.end, StageEnd::stalled);
-  EXPECT_NE(report.reason.find("no longer rises"), std::string::npos);
-  EXPECT_LT(state.moves.sweeps, 20'000u);
-  EXPECT_TRUE(exact_check(c).clean());
+  const Compressed end = compressed(c, {.pressure = 2, .packing_fraction = 0.8, .sweeps = 100'000});
+  EXPECT_EQ(end.end, StageEnd::stalled);
+  EXPECT_THAT(end.reason, testing::HasSubstr("no longer rises"));
+  EXPECT_LT(end.moves.sweeps, 20'000u);
 }
 
 TEST(Compression, SaysWhenTheSweepsDoNotSuffice) {
   Configuration2 c = inserted_fluid(100, 2, 0.3);
-  CompressionState state;
-  const StageReport report =
-      compress(c, {.pressure = 30, .packing_fraction = 0.6, .sweeps = 10}, 1, state, {});
-  EXPECT_EQ(report.end, StageEnd::stalled);
-  EXPECT_NE(report.reason.find("did not reach its target"), std::string::npos);
-  EXPECT_EQ(state.moves.sweeps, 10u);
+  const Compressed end = compressed(c, {.pressure = 30, .packing_fraction = 0.6, .sweeps = 10});
+  EXPECT_EQ(end.end, StageEnd::stalled);
+  EXPECT_THAT(end.reason, testing::HasSubstr("did not reach its target"));
+  EXPECT_EQ(end.moves.sweeps, 10u);
 }
 
 TEST(Compression, GoesOnBitByBitAfterStops) {
@@ -118,13 +113,13 @@ TEST(Compression, GoesOnBitByBitAfterStops) {
   const CompressionOptions options{.pressure = 5, .change = BoxChange::anisotropic, .sweeps = 200};
   CompressionState undisturbed, state;
   EXPECT_EQ(compress(whole, options, 1, undisturbed, {}).end, StageEnd::reached);
-  int asked = 0, stops = 0;
-  const RunControl control{[&] { return ++asked % 37 == 0; }, {}, {}};
-  for (; compress(parts, options, 1, state, control).end == StageEnd::stopped; ++stops)
+  const auto stage = [&](const RunControl& control) {
+    const StageReport report = compress(parts, options, 1, state, control);
     EXPECT_TRUE(exact_check(parts).clean());
-  EXPECT_GT(stops, 3);
-  EXPECT_EQ(parts.position, whole.position);
-  EXPECT_EQ(parts.box.lengths(), whole.box.lengths());
+    return report;
+  };
+  EXPECT_GT(stops_of(37, stage), 3);
+  expect_same_state(parts, whole);
   EXPECT_EQ(state.packing_fraction, undisturbed.packing_fraction);
 }
 

@@ -10,15 +10,14 @@
 #include "mc/hard_core.h"
 #include "mc/lattice.h"
 #include "mc/sampler.h"
-#include "tests/support/scenes.h"
-#include "tests/support/solids.h"
-#include "tests/support/statistics.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/visited_states.h"
 
 namespace vitrel {
 namespace {
 
 Configuration2 dilute(double aspect_ratio) {
-  return square_lattice(10, 0.2, 0, [&](std::size_t) { return of_aspect_ratio(aspect_ratio); });
+  return square_lattice(10, 0.2, 0, of_aspect_ratio(aspect_ratio));
 }
 
 TEST(Decorrelation, LeavesTheStateAndNumbersItsSweeps) {
@@ -42,10 +41,7 @@ TEST(Decorrelation, MeasuresWhatTheSamplerDoes) {
   ASSERT_TRUE(result);
   Configuration2 copy = state;
   Sampler sampler(copy, 7, {.next_sweep = 3});
-  for (int k = 1; k <= 100; ++k) {
-    sampler.sweep();
-    if (k % 5 == 0) sampler.tune();
-  }
+  sweep_and_tune(sampler, 100, 5);
   const Configuration2 start = copy;
   std::vector<double> orientation, displacement, pressures;
   ContactPressure pressure;
@@ -71,9 +67,7 @@ TEST(Decorrelation, MeasuresWhatTheSamplerDoes) {
     EXPECT_NEAR(result->displacement[k], displacement[t - 1], 1e-12 * displacement[t - 1]);
   }
   const auto first = [](const std::vector<double>& values, const auto& holds) {
-    return static_cast<std::uint64_t>(std::find_if(values.begin(), values.end(), holds) -
-                                      values.begin()) +
-           1;
+    return static_cast<std::uint64_t>(std::ranges::find_if(values, holds) - values.begin()) + 1;
   };
   EXPECT_EQ(result->orientation_time,
             first(orientation, [](double c) { return c < std::exp(-1); }));
@@ -131,9 +125,7 @@ TEST(Decorrelation, EvenOneSweepIsMeasured) {
 // 720 configurations of 400 disks in ten
 // blocks, five standard errors: with ten blocks, a false alarm in 1500.
 TEST(Decorrelation, ThePressureIsThatOfTheDiskFluid) {
-  const Configuration2 state = square_lattice(20, 0.3, 0, [](std::size_t) {
-    return Ellipse{1, 1};
-  });
+  const Configuration2 state = lattice_of_disks(20, 0.3);
   const auto result = measure_decorrelation(state, 4500, 2, 0, {});
   ASSERT_TRUE(result);
   std::vector<double> blocks;
@@ -164,10 +156,7 @@ TEST(Decorrelation, InSpaceMeasuresWhatTheSamplerDoes) {
   ASSERT_TRUE(result);
   Configuration3 copy = state;
   Sampler sampler(copy, 7, {.next_sweep = 3});
-  for (int k = 1; k <= 20; ++k) {
-    sampler.sweep();
-    if (k % 5 == 0) sampler.tune();
-  }
+  sweep_and_tune(sampler, 20, 5);
   const Configuration3 start = copy;
   sampler.sweep();
   double kept = 0, moved = 0;

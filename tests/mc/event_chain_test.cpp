@@ -2,18 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "bench/reference/literature.h"
 #include "core/state/check.h"
 #include "mc/hard_core.h"
 #include "tests/support/chain_pressures.h"
+#include "tests/support/equal_bodies.h"
 #include "tests/support/fluids.h"
 #include "tests/support/mixtures.h"
-#include "tests/support/statistics.h"
+#include "tests/support/same_state.h"
 #include "tests/support/thin_gas.h"
+#include "tests/support/visited_states.h"
 
 namespace vitrel {
 namespace {
@@ -72,9 +72,7 @@ TEST(EventChain, SameSeedSameStateAndSweepsAreNumbered) {
   for (int sweep = 0; sweep < 7; ++sweep) first.sweep();
   EventChain second(two, {}, 9, first.state());
   for (int sweep = 7; sweep < 20; ++sweep) second.sweep();
-  EXPECT_EQ(one.position, two.position);
-  EXPECT_EQ(one.image, two.image);
-  EXPECT_EQ(one.angle, two.angle);
+  expect_same_state(one, two);
 }
 
 // Counts over 1000 chains, whose numbers of contacts scatter by about half of themselves, against a plan
@@ -84,10 +82,7 @@ TEST(EventChain, TuningGivesTheContactsAndRotationsAskedFor) {
        {EventChainOptions{100, 1}, EventChainOptions{10, 0.5}, EventChainOptions{300, 2}}) {
     Configuration2 c = swollen_fluid(200, 3, 0.5);
     EventChain chains(c, asked, 2);
-    for (int round = 0; round < 3000; ++round) {
-      chains.sweep();
-      chains.tune();
-    }
+    sweep_and_tune(chains, 3000, 1);
     const ChainCounts before = chains.counts();
     double sweeps = 0;
     for (; chains.counts().chains < before.chains + 1000; ++sweeps) chains.sweep();
@@ -115,9 +110,7 @@ TEST(EventChain, RoundParticlesAreNotTurned) {
 // A row of disks that spans the box, with a hard margin between them and hardly more room: chains along it
 // would have contacts without end, those across it go their way.
 TEST(EventChain, IsCutShortInAJammedRow) {
-  Configuration2 c;
-  c.resize(4);
-  c.box = PeriodicBox<2>(Vec2(8 * (1 + 1e-13), 20));
+  Configuration2 c = equal_bodies(4, {1, 1}, Vec2(8 * (1 + 1e-13), 20));
   for (std::size_t i = 0; i < 4; ++i)
     c.position[i] = {(static_cast<double>(i) - 1.5) * c.box.lengths().x() / 4, 0};
   ASSERT_FALSE(find_overlap(c).has_value());
@@ -153,65 +146,32 @@ TEST(EventChain, HasTheEquationOfState) {
   }
 }
 
-// Every hard state must be as likely as any other: against states drawn independently. 4 standard errors of
-// the difference, a false alarm of 6e-5 each.
+// Every hard state must be as likely as any other: against states drawn independently.
 TEST(EventChain, VisitsHardStatesEqually) {
   Configuration2 c = thin_gas();
-  const std::array<std::vector<double>, 3> expected = independent_states(c, 20'000);
+  const Series<3> expected = independent_states(c, 20'000);
   EventChain chains(c, {}, 3);
   chains.set_plan({8, 14, 16, 1});
-  std::array<std::vector<double>, 3> found;
-  for (int block = 0; block < 400; ++block) {
-    std::array<double, 3> sums{};
-    constexpr int samples = 100;
-    for (int k = 0; k < samples; ++k) {
-      chains.sweep();
-      const auto values = measured(c);
-      for (std::size_t m = 0; m < 3; ++m) sums[m] += values[m] / samples;
-    }
-    for (std::size_t m = 0; m < 3; ++m) found[m].push_back(sums[m]);
-  }
-  for (std::size_t m = 0; m < 3; ++m) {
-    const Estimate here = estimate(found[m]), there = estimate(expected[m]);
-    EXPECT_LT(there.error, 0.03 * std::abs(there.mean));
-    EXPECT_LT(here.error, 0.03 * std::abs(there.mean));
-    EXPECT_NEAR(here.mean, there.mean, 4 * std::hypot(here.error, there.error)) << m;
-  }
+  const auto step = [&] { chains.sweep(); };
+  expect_same_means(block_means(400, 100, step, [&] { return measured(c); }), expected, 0.03);
 }
 
-// Two ellipses in a box shorter than two of them, in which they meet through several images and would
-// meet their own: how often their nearest images are close, against random insertion.
+// Two ellipses in a box shorter than two of them, in which they meet through several images and
+// would meet their own: how often their nearest images are close, against random insertion.
 TEST(EventChain, TwoParticlesAmongTheirImagesVisitHardStatesEqually) {
-  const Ellipse shape = of_aspect_ratio(3);
-  Configuration2 pair;
-  pair.resize(2);
-  pair.shape = {shape, shape};
-  pair.box = PeriodicBox<2>(Vec2(4.2, 5));
-  ASSERT_LT(pair.box.lengths().x(), 4 * shape.a);
-  const auto is_close = [](const Configuration2& c) {
-    Vec2 d = c.position[1] - c.position[0];
-    d += c.box.translation(c.box.nearest_shift(d));
-    return d.norm() < 2;
-  };
-  const double phi = packing_fraction(pair);
+  Configuration2 pair = equal_bodies(2, of_aspect_ratio(3), Vec2(4.2, 5));
+  ASSERT_LT(pair.box.lengths().x(), 4 * pair.shape[0].a);
+  const auto is_close = [](const Configuration2& c) { return are_closer(c, 2); };
   const int samples = 40'000;
-  double expected = 0;
-  for (int k = 0; k < samples; ++k) {
-    Configuration2 c = pair;
-    insert_particles(c, {phi, 100000, false}, static_cast<std::uint64_t>(k), {});
-    expected += is_close(c);
-  }
-  expected /= samples;
+  const double expected = share_of_insertions(pair, samples, is_close);
 
-  insert_particles(pair, {phi, 100000, false}, 1, {});
+  insert_particles(pair, {packing_fraction(pair), 100000, false}, 1, {});
   EventChain chains(pair, {}, 3);
   chains.set_plan({10, 3, 10, 1.5});
-  double found = 0;
-  for (int k = 0; k < samples; ++k) {
+  const auto step = [&] {
     for (int sweep = 0; sweep < 4; ++sweep) chains.sweep();
-    found += is_close(pair);
-  }
-  found /= samples;
+  };
+  const double found = share_of_states(samples, step, [&] { return is_close(pair); });
   EXPECT_GT(expected, 0.1);
   EXPECT_LT(expected, 0.9);
   // Both are binomial; samples four sweeps of ten chains apart count as independent. 4 standard errors.

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "core/state/check.h"
-#include "core/state/species.h"
 #include "mc/event_chain.h"
-#include "mc/insertion.h"
 #include "mc/sampler.h"
 #include "tests/support/mixtures.h"
+#include "tests/support/polydisperse.h"
+#include "tests/support/same_state.h"
 
 namespace vitrel {
 namespace {
@@ -125,11 +125,12 @@ TEST_P(ExchangesOf, ChainsMapHardStatesOneToOneAsTheyAreDefined) {
     }
 }
 
-/// The share of visits to each hard state.
+/// Moves of step(exchanges, draw, counts, tests) visit all hard states that they reach equally often; false alarms at about
+/// 5 standard errors of independent visits, of which there are fewer than steps.
 template <class Step>
-std::map<Arrangement, double> visits(const Scene& scene, const Arrangement& start, int steps,
-                                     double partners, const Step& step) {
-  Configuration2 c = arranged(scene, start);
+void expect_equal_visits(const Scene& scene, double partners, const Step& step) {
+  constexpr int steps = 200'000, independent = steps / 20;
+  Configuration2 c = arranged(scene, hard_arrangements(scene)[0]);
   HardParticles particles(c);
   Exchanges exchanges(particles, {.trials = 1, .partners = partners, .collective = 1});
   exchanges.rank_domains();
@@ -141,39 +142,21 @@ std::map<Arrangement, double> visits(const Scene& scene, const Arrangement& star
     step(exchanges, draw, counts, tests);
     shares[arrangement_of(c, scene)] += 1.0 / steps;
   }
-  return shares;
-}
-
-/// Hard states are visited equally often; false alarms at about 5 standard errors of independent visits, of which there
-/// are fewer than steps.
-void expect_equal(const std::map<Arrangement, double>& shares, int independent) {
+  EXPECT_GT(shares.size(), 5u);
   const double expected = 1 / static_cast<double>(shares.size());
   for (const auto& [places, share] : shares)
     EXPECT_NEAR(share, expected, 5 * std::sqrt(expected / independent));
 }
 
 TEST_P(ExchangesOf, ExchangesOfAnyTwoVisitAllHardStatesThatTheyReachEqually) {
-  const Scene& scene = GetParam();
-  constexpr int steps = 200'000;
-  for (const double partners : {1., 0.4}) {
-    const auto shares = visits(scene, hard_arrangements(scene)[0], steps, partners,
-                               [](auto& exchanges, Stream& draw, auto& counts, auto& tests) {
-                                 exchanges.try_all(draw, counts, tests);
-                               });
-    EXPECT_GT(shares.size(), 5u);
-    expect_equal(shares, steps / 20);
-  }
+  for (const double partners : {1., 0.4})
+    expect_equal_visits(GetParam(), partners,
+                        [](auto& exchanges, auto&... rest) { exchanges.try_all(rest...); });
 }
 
 TEST_P(ExchangesOf, ChainsVisitAllHardStatesThatTheyReachEqually) {
-  const Scene& scene = GetParam();
-  constexpr int steps = 200'000;
-  const auto shares = visits(scene, hard_arrangements(scene)[0], steps, 1,
-                             [](auto& exchanges, Stream& draw, auto& counts, auto& tests) {
-                               exchanges.run_chain(draw, counts, tests);
-                             });
-  EXPECT_GT(shares.size(), 5u);
-  expect_equal(shares, steps / 20);
+  expect_equal_visits(GetParam(), 1,
+                      [](auto& exchanges, auto&... rest) { exchanges.run_chain(rest...); });
 }
 
 class ExchangesIn : public testing::TestWithParam<Mixture> {};
@@ -202,17 +185,6 @@ TEST_P(ExchangesIn, MixturesOfAllKindsKeepThemHard) {
   EXPECT_EQ(sampler.counts().exchanges.accepted_steps > 0, start.size() > 1);
 }
 
-/// Sizes drawn from a continuous distribution.
-template <int Dim>
-Configuration<Dim> polydisperse(double aspect_ratio, std::size_t particles, double fraction) {
-  Species species;
-  species.aspect_ratio = Distribution{.mean = aspect_ratio};
-  species.size = Distribution{.kind = Distribution::Kind::uniform, .low = 0.6, .high = 1.4};
-  Configuration<Dim> c = draw_particles<Dim>({species}, particles, fraction, Vec<Dim>::Ones(), 1);
-  insert_particles(c, {.packing_fraction = fraction}, 1, {});
-  return c;
-}
-
 /// The same chain in single steps, which each test the two that exchange.
 template <class Shape>
 void run_in_single_steps(HardParticles<Shape>& particles, std::size_t rank, std::size_t steps) {
@@ -234,8 +206,7 @@ void expect_the_same_as_in_single_steps(double aspect_ratio, double fraction) {
   OverlapTestCounts tests;
   exchanges.run_chain(17, 1000, counts, tests);
   run_in_single_steps(other, 17, 1000);
-  EXPECT_EQ(searched.position, stepped.position);
-  EXPECT_EQ(orientations(searched), orientations(stepped));
+  expect_same_state(searched, stepped);
   EXPECT_GT(counts.accepted_steps, 500u);
   EXPECT_LT(counts.accepted_steps, 997u);
   EXPECT_TRUE(exact_check(searched).clean());

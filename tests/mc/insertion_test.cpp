@@ -6,17 +6,16 @@
 #include <numbers>
 
 #include "core/state/check.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
 
 namespace vitrel {
 namespace {
 
-Configuration2 particles(std::size_t n, const Ellipse& shape) {
-  Configuration2 c;
-  c.resize(n);
-  for (Ellipse& s : c.shape) s = shape;
-  c.box = PeriodicBox<2>(Vec2(50, 50));
-  return c;
+Configuration2 particles(std::size_t n, const Ellipse& shape, const Vec2& sides = {50, 50}) {
+  return equal_bodies(n, shape, sides);
+}
+Configuration3 solids(std::size_t n, const Ellipsoid& shape, double edge) {
+  return equal_bodies<3>(n, shape, Vec3::Constant(edge));
 }
 
 TEST(Insertion, GivesAHardStateAtThePackingFraction) {
@@ -27,14 +26,6 @@ TEST(Insertion, GivesAHardStateAtThePackingFraction) {
     EXPECT_NEAR(packing_fraction(c), 0.35, 1e-12);
     EXPECT_TRUE(exact_check(c).clean());
   }
-}
-
-Configuration3 solids(std::size_t n, const Ellipsoid& shape, double edge) {
-  Configuration3 c;
-  c.resize(n);
-  for (Ellipsoid& s : c.shape) s = shape;
-  c.box = PeriodicBox<3>(Vec3::Constant(edge));
-  return c;
 }
 
 TEST(Insertion, OfSolidsGivesAHardStateAtThePackingFraction) {
@@ -49,6 +40,22 @@ TEST(Insertion, OfSolidsGivesAHardStateAtThePackingFraction) {
     }
 }
 
+/// ⟨u uᵀ⟩ of one of the own axes of the bodies.
+Mat3 tensor_of_axes(const Configuration3& c, int axis) {
+  Mat3 tensor = Mat3::Zero();
+  for (const Quaternion& q : c.orientation) {
+    const Vec3 u = q * Vec3::Unit(axis);
+    tensor += u * u.transpose() / static_cast<double>(c.size());
+  }
+  return tensor;
+}
+
+/// Components of u uᵀ lie in an interval of length 1, so that their standard deviation is at most 1/2. Within 4.9 standard
+/// errors of the mean of n: a false alarm in at most 1e-6 of the seeds each.
+double tolerance_of_tensor(std::size_t n) {
+  return 4.9 * 0.5 / std::sqrt(static_cast<double>(n));
+}
+
 // Dense enough that most places are refused.
 TEST(Insertion, OfSolidsKeepsTheOrientationTensorWherePlacesAreRefused) {
   constexpr std::size_t n = 1000;
@@ -58,17 +65,11 @@ TEST(Insertion, OfSolidsKeepsTheOrientationTensorWherePlacesAreRefused) {
       insert_particles(c, {0.1, 100000, false, {given.data(), given.data() + 9}}, 1, {});
   ASSERT_EQ(report.end, StageEnd::reached);
   EXPECT_GT(report.trials, 5 * n);
-  Mat3 tensor = Mat3::Zero();
-  for (const Quaternion& q : c.orientation) {
-    const Vec3 u = q * Vec3::UnitX();
-    tensor += u * u.transpose() / n;
-  }
-  EXPECT_LT((tensor - given).cwiseAbs().maxCoeff(), 4.9 * 0.5 / std::sqrt(n)) << tensor;
+  const Mat3 tensor = tensor_of_axes(c, 0);
+  EXPECT_LT((tensor - given).cwiseAbs().maxCoeff(), tolerance_of_tensor(n)) << tensor;
 }
 
-// The longest axes have the tensor A. Turned at random around them, other axes have (1 − A)/2. Components of u uᵀ lie in
-// an interval of length 1, so that their standard deviation is at most 1/2; 4.9 standard errors, a false alarm in at most
-// 1e-6 of the seeds each.
+// The longest axes have the tensor A. Turned at random around them, other axes have (1 − A)/2.
 TEST(Insertion, OfSolidsHasTheOrientationTensor) {
   constexpr std::size_t n = 5000;
   Configuration3 c = solids(n, {Vec3(0.5, 2, 1)}, 200);
@@ -76,13 +77,8 @@ TEST(Insertion, OfSolidsHasTheOrientationTensor) {
   const InsertionOptions options{0.001, 100000, false, {given.data(), given.data() + 9}};
   ASSERT_EQ(insert_particles(c, options, 1, {}).end, StageEnd::reached);
   EXPECT_TRUE(exact_check(c).clean());
-  Mat3 longest = Mat3::Zero(), middle = Mat3::Zero();
-  for (const Quaternion& q : c.orientation) {
-    const Mat3 axes = q.toRotationMatrix();
-    longest += axes.col(1) * axes.col(1).transpose() / n;
-    middle += axes.col(2) * axes.col(2).transpose() / n;
-  }
-  const double tolerance = 4.9 * 0.5 / std::sqrt(n);
+  const Mat3 longest = tensor_of_axes(c, 1), middle = tensor_of_axes(c, 2);
+  const double tolerance = tolerance_of_tensor(n);
   EXPECT_LT((longest - given).cwiseAbs().maxCoeff(), tolerance) << longest;
   const Mat3 around = 0.5 * (Mat3::Identity() - given);
   EXPECT_LT((middle - around).cwiseAbs().maxCoeff(), tolerance) << middle;
@@ -98,7 +94,7 @@ TEST(Insertion, HasTheOrientationTensorInThePlane) {
     const Vec2 u(std::cos(angle), std::sin(angle));
     tensor += u * u.transpose() / n;
   }
-  const double tolerance = 4.9 * 0.5 / std::sqrt(n);
+  const double tolerance = tolerance_of_tensor(n);
   EXPECT_NEAR(tensor(0, 0), 0.8, tolerance);
   EXPECT_NEAR(tensor(0, 1), 0.1, tolerance);
 }
@@ -114,8 +110,7 @@ TEST(Insertion, OfSolidsMindsTheirOwnImages) {
 }
 
 TEST(Insertion, IntoABoxOfOneParticleLengthMindsTheImages) {
-  Configuration2 c = particles(3, {3, 0.1});
-  c.box = PeriodicBox<2>(Vec2(6.1, 3));
+  Configuration2 c = particles(3, {3, 0.1}, {6.1, 3});
   const StageReport report = insert_particles(c, {packing_fraction(c), 1000000, false}, 1, {});
   ASSERT_EQ(report.end, StageEnd::reached);
   EXPECT_TRUE(exact_check(c).clean());
@@ -135,6 +130,21 @@ TEST(Insertion, AlignedMeansAngleZero) {
   for (double angle : c.angle) EXPECT_EQ(angle, 0);
 }
 
+/// Two bodies thrown at random overlap with probability 2 B₂/V: the share of second bodies that find no place at the first
+/// attempt. 4 standard errors, false alarm 6e-5.
+template <int Dim>
+void expect_second_virial_coefficient(const Configuration<Dim>& pair, double b2) {
+  const int throws = 40'000;
+  int rejected = 0;
+  for (int k = 0; k < throws; ++k) {
+    Configuration<Dim> c = pair;
+    const StageReport report = insert_particles(c, {packing_fraction(c), 1, false}, k, {});
+    rejected += report.end == StageEnd::stalled;
+  }
+  const double p = 2 * b2 / pair.box.volume();
+  EXPECT_NEAR(rejected, p * throws, 4 * std::sqrt(throws * p * (1 - p)));
+}
+
 // As of ellipses: B₂ = V + S R of a convex body, S the surface and R the mean support function. Of a
 // prolate spheroid with c² = a² − b²: S = 2π b² + 2π a²b/c asin(c/a), R = (a + b²/c asinh(c/b))/2. Both
 // bodies are turned at random: wrongly turned ones would give another number.
@@ -143,35 +153,14 @@ TEST(Insertion, FirstRejectionOfSpheroidsGivesTheSecondVirialCoefficient) {
   const Ellipsoid shape{Vec3(b, a, b)};
   const double surface = 2 * std::numbers::pi * (b * b + a * a * b / c * std::asin(c / a));
   const double b2 = shape.volume() + surface * 0.5 * (a + b * b / c * std::asinh(c / b));
-  const int throws = 40'000;
-  int rejected = 0;
-  for (int k = 0; k < throws; ++k) {
-    Configuration3 pair = solids(2, shape, 8);
-    const double fraction = packing_fraction(pair);
-    rejected += insert_particles(pair, {fraction, 1, false}, k, {}).end == StageEnd::stalled;
-  }
-  const double p = 2 * b2 / 512;
-  EXPECT_NEAR(rejected, p * throws, 4 * std::sqrt(throws * p * (1 - p)));
+  expect_second_virial_coefficient(solids(2, shape, 8), b2);
 }
 
-// Two ellipses thrown at random overlap with probability 2 B₂/V, B₂ = A + P²/(4π) exactly: the
-// share of second particles that find no place at the first attempt. 4 standard errors, false alarm
-// 6e-5.
+// B₂ = A + P²/(4π) exactly.
 TEST(Insertion, FirstRejectionGivesTheSecondVirialCoefficient) {
   const Ellipse shape = of_aspect_ratio(4);
   const double b2 = shape.volume() + std::pow(perimeter(shape), 2) / (4 * std::numbers::pi);
-  const int throws = 40'000;
-  int rejected = 0;
-  double volume = 0;
-  for (int k = 0; k < throws; ++k) {
-    Configuration2 c = particles(2, shape);
-    c.box = PeriodicBox<2>(Vec2(12, 12));
-    const StageReport report = insert_particles(c, {packing_fraction(c), 1, false}, k, {});
-    rejected += report.end == StageEnd::stalled;
-    volume = c.box.volume();
-  }
-  const double p = 2 * b2 / volume;
-  EXPECT_NEAR(rejected, p * throws, 4 * std::sqrt(throws * p * (1 - p)));
+  expect_second_virial_coefficient(particles(2, shape, {12, 12}), b2);
 }
 
 }  // namespace

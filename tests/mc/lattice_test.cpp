@@ -1,5 +1,6 @@
 #include "mc/lattice.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +10,7 @@
 #include "core/neighbors/pairs.h"
 #include "core/state/check.h"
 #include "mc/hard_core.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
 
 namespace vitrel {
 namespace {
@@ -17,12 +18,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Configuration2 equal_particles(std::size_t n, double aspect_ratio, double packing_fraction) {
-  Configuration2 c;
-  c.resize(n);
-  for (Ellipse& shape : c.shape) shape = of_aspect_ratio(aspect_ratio);
   const double side = std::sqrt(static_cast<double>(n) * pi / packing_fraction);
-  c.box = PeriodicBox<2>(Vec2(side, side));
-  return c;
+  return equal_bodies(n, of_aspect_ratio(aspect_ratio), Vec2(side, side));
 }
 
 TEST(SquareLattice, ThesisSceneIsPlacedAndHard) {
@@ -36,13 +33,11 @@ TEST(SquareLattice, ThesisSceneIsPlacedAndHard) {
 
 TEST(SquareLattice, SaysHowDenseItCanBe) {
   Configuration2 c = equal_particles(100, 2, 0.6);
-  try {
-    place_on_lattice(c, {Arrangement::square, 0});
-    FAIL() << "an overlapping lattice was accepted";
-  } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("reaches 0.392699"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_THAT(
+      [&] {
+        place_on_lattice(c, {Arrangement::square, 0});
+      },
+      testing::ThrowsMessage<UserError>(testing::HasSubstr("reaches 0.392699")));
 }
 
 // 101 is a prime: a chain of 101 would be exact, but 8 × 13 sites with 3 of them empty make a box
@@ -95,10 +90,7 @@ TEST(TriangularLatticeAngle, OtherThanZeroIsRefused) {
 
 Configuration3 equal_solids(std::size_t n, const Vec3& semi_axes, double packing_fraction,
                             const Vec3& proportions = Vec3::Ones()) {
-  Configuration3 c;
-  c.resize(n);
-  for (Ellipsoid& shape : c.shape) shape = {semi_axes};
-  c.box = PeriodicBox<3>(proportions);
+  Configuration3 c = equal_bodies(n, {semi_axes}, proportions);
   scale_to_packing_fraction(c, packing_fraction);
   return c;
 }

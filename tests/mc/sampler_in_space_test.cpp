@@ -1,104 +1,19 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "core/contact/contact_queries.h"
 #include "core/state/check.h"
 #include "mc/event_chain.h"
 #include "mc/hard_core.h"
 #include "mc/sampler.h"
+#include "tests/support/equal_bodies.h"
 #include "tests/support/mixtures_in_space.h"
-#include "tests/support/solids.h"
-#include "tests/support/statistics.h"
+#include "tests/support/visited_states.h"
 
 namespace vitrel {
 namespace {
-
-class SamplerInSpaceOf : public testing::TestWithParam<MixtureInSpace> {
- protected:
-  static Configuration3 inserted() { return inserted_mixture(GetParam()); }
-};
-
-// Judged in extended precision with tolerance zero, after steps of all sizes.
-TEST_P(SamplerInSpaceOf, KeepsTheStateHard) {
-  Configuration3 c = inserted();
-  Sampler sampler(c, 5);
-  for (const double step : {3., 0.3, 0.03}) {
-    sampler.set_steps(step, step);
-    for (int sweep = 0; sweep < 60; ++sweep) sampler.sweep();
-    ASSERT_TRUE(exact_check(c).clean());
-  }
-  const TrialCounts& counts = sampler.counts();
-  EXPECT_GT(counts.translations_accepted, 10 * c.size());
-  if (rotor_count(c) > 0) {
-    EXPECT_GT(counts.rotations_accepted, 5 * rotor_count(c));
-  } else {
-    EXPECT_EQ(counts.rotations_tried, 0u);
-  }
-  EXPECT_EQ(counts.translations_tried + counts.rotations_tried, 180 * c.size());
-}
-
-TEST_P(SamplerInSpaceOf, ExchangesKeepTheStateHard) {
-  Configuration3 c = inserted();
-  Sampler sampler(c, 5);
-  sampler.set_steps(0.3, 0.3);
-  sampler.set_exchanges({.trials = 0.5});
-  for (int sweep = 0; sweep < 100; ++sweep) sampler.sweep();
-  ASSERT_TRUE(exact_check(c).clean());
-  const bool one_shape = std::ranges::all_of(
-      c.shape, [&](const Ellipsoid& s) { return s.semi_axes == c.shape[0].semi_axes; });
-  EXPECT_EQ(sampler.counts().exchanges.tried == 0, one_shape);
-  if (!one_shape) {
-    EXPECT_GT(sampler.counts().exchanges.accepted, c.size() / 10);
-  }
-}
-
-TEST_P(SamplerInSpaceOf, AnyNumberOfThreadsGivesTheSameState) {
-  const Configuration3 start = inserted();
-  const auto moved = [&](int threads) {
-    Configuration3 c = start;
-    Sampler sampler(c, 7, {.next_sweep = 3}, threads);
-    sampler.set_exchanges({.trials = 0.2});
-    for (int round = 0; round < 3; ++round) {
-      for (int sweep = 0; sweep < 10; ++sweep) sampler.sweep();
-      sampler.tune();
-    }
-    return c;
-  };
-  const Configuration3 one = moved(1);
-  EXPECT_NE(one.position, start.position);
-  for (const int threads : {2, 3}) {
-    const Configuration3 more = moved(threads);
-    EXPECT_EQ(more.position, one.position);
-    EXPECT_EQ(more.image, one.image);
-    for (std::size_t i = 0; i < one.size(); ++i)
-      EXPECT_EQ(more.orientation[i].coeffs(), one.orientation[i].coeffs());
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Mixtures, SamplerInSpaceOf, testing::ValuesIn(mixtures_in_space()));
-
-// All particles grow and shrink, and the longest outgrow the reach that the cells began with.
-TEST(SamplerInSpace, ReshapesOnlyWhereThereIsRoom) {
-  Configuration3 c = inserted_mixture(mixtures_in_space()[2]);
-  Sampler sampler(c, 5);
-  Stream draw(1, Purpose::tests);
-  int given = 0, refused = 0;
-  for (int round = 0; round < 20; ++round) {
-    sampler.sweep();
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      const double size = draw.uniform(0.5, 2);
-      (sampler.reshape(i, scaled(random_ellipsoid(draw, 6), size)) ? given : refused) += 1;
-    }
-    ASSERT_TRUE(exact_check(c).clean());
-  }
-  EXPECT_GT(given, 200);
-  EXPECT_GT(refused, 200);
-}
 
 /// Three prolate spheroids and three spheres in a box of two domains along x.
 Configuration3 thin_gas_in_space() {
@@ -153,37 +68,28 @@ void draw_hard_state(Configuration3& c, Stream& draw) {
   } while (!is_hard(c));
 }
 
-// The same statistics of hard states drawn one after the other as of states drawn independently. 4 standard errors of
-// the difference, a false alarm of 6e-5 each. In a box so narrow the spheroids meet their own images.
+/// What measure() returns of so many states drawn independently.
+template <class Measure>
+auto independent_states(Configuration3& c, int count, std::uint64_t seed, const Measure& measure) {
+  Stream draw(seed, Purpose::tests);
+  return block_means(
+      count, 1, [&] { draw_hard_state(c, draw); }, measure);
+}
+
+// The same statistics of hard states drawn one after the other as of states drawn independently. In a box so narrow the
+// spheroids meet their own images.
 TEST(SamplerInSpace, VisitsHardStatesEqually) {
   for (const double exchanges : {0., 0.4}) {
     Configuration3 c = thin_gas_in_space();
-    Stream draw(17, Purpose::tests);
-    std::array<std::vector<double>, 4> expected, found;
-    for (int k = 0; k < 20'000; ++k) {
-      draw_hard_state(c, draw);
-      const auto values = measured(c);
-      for (std::size_t m = 0; m < 4; ++m) expected[m].push_back(values[m]);
-    }
+    const auto measure = [&] { return measured(c); };
+    const Series<4> expected = independent_states(c, 20'000, 17, measure);
     Sampler sampler(c, 3);
     sampler.set_steps(2, 1);
     sampler.set_exchanges({.trials = exchanges});
-    for (int block = 0; block < 300; ++block) {
-      std::array<double, 4> sums{};
-      constexpr int samples = 100;
-      for (int k = 0; k < samples; ++k) {
-        for (int sweep = 0; sweep < 4; ++sweep) sampler.sweep();
-        const auto values = measured(c);
-        for (std::size_t m = 0; m < 4; ++m) sums[m] += values[m] / samples;
-      }
-      for (std::size_t m = 0; m < 4; ++m) found[m].push_back(sums[m]);
-    }
-    for (std::size_t m = 0; m < 4; ++m) {
-      const Estimate here = estimate(found[m]), there = estimate(expected[m]);
-      EXPECT_LT(there.error, 0.03 * there.mean);
-      EXPECT_LT(here.error, 0.03 * there.mean);
-      EXPECT_NEAR(here.mean, there.mean, 4 * std::hypot(here.error, there.error)) << m;
-    }
+    const auto step = [&] {
+      for (int sweep = 0; sweep < 4; ++sweep) sampler.sweep();
+    };
+    expect_same_means(block_means(300, 100, step, measure), expected, 0.03);
     EXPECT_EQ(sampler.counts().exchanges.accepted > 0, exchanges > 0);
   }
 }
@@ -201,13 +107,10 @@ void PrintTo(const FewSolids& solids, std::ostream* out) {
 
 class EventChainOfFew : public testing::TestWithParam<FewSolids> {};
 
-// How many pairs are close, and how the axes x of the bodies lie to that of the box, which of spheres means nothing: against
-// states drawn independently. 4 standard errors of the difference, a false alarm of 6e-5 each.
+// How many pairs are close, and how the axes x of the bodies lie to that of the box: against states drawn independently.
 TEST_P(EventChainOfFew, VisitsHardStatesEqually) {
-  Configuration3 c;
-  c.resize(4);
+  Configuration3 c = equal_bodies(4, {}, GetParam().box);
   for (std::size_t i = 0; i < 4; ++i) c.shape[i] = {GetParam().semi_axes[i]};
-  c.box = PeriodicBox<3>(GetParam().box);
   const auto measure = [&c] {
     std::array<double, 2> sums{};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -218,30 +121,18 @@ TEST_P(EventChainOfFew, VisitsHardStatesEqually) {
     }
     return sums;
   };
-  Stream draw(18, Purpose::tests);
-  std::array<std::vector<double>, 2> expected, found;
-  for (int k = 0; k < 10'000; ++k) {
-    draw_hard_state(c, draw);
-    for (std::size_t m = 0; m < 2; ++m) expected[m].push_back(measure()[m]);
-  }
+  const Series<2> expected = independent_states(c, 10'000, 18, measure);
   EventChain chains(c, {}, 3);
   chains.set_plan(GetParam().plan);
-  for (int block = 0; block < 300; ++block) {
-    std::array<double, 2> sums{};
-    for (int k = 0; k < 50; ++k) {
-      chains.sweep();
-      for (std::size_t m = 0; m < 2; ++m) sums[m] += measure()[m] / 50;
-    }
-    for (std::size_t m = 0; m < 2; ++m) found[m].push_back(sums[m]);
-  }
+  const Series<2> found = block_means(
+      300, 50, [&] { chains.sweep(); }, measure);
   ASSERT_TRUE(exact_check(c).clean());
   EXPECT_EQ(chains.counts().cut_short, 0u);
-  for (std::size_t m = 0; m < (rotor_count(c) > 0 ? 2 : 1); ++m) {
-    const Estimate here = estimate(found[m]), there = estimate(expected[m]);
-    EXPECT_LT(there.error, 0.02 * there.mean);
-    EXPECT_LT(here.error, 0.02 * there.mean);
-    EXPECT_NEAR(here.mean, there.mean, 4 * std::hypot(here.error, there.error)) << m;
-  }
+  // The axes of spheres mean nothing.
+  if (rotor_count(c) > 0)
+    expect_same_means(found, expected, 0.02);
+  else
+    expect_same_means<1>({found[0]}, {expected[0]}, 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -8,8 +8,11 @@
 #include "core/state/check.h"
 #include "mc/place_correlation.h"
 #include "mc/sampler.h"
+#include "tests/support/equal_bodies.h"
 #include "tests/support/fluids.h"
 #include "tests/support/mixtures_in_space.h"
+#include "tests/support/same_state.h"
+#include "tests/support/stops.h"
 
 namespace vitrel {
 namespace {
@@ -42,9 +45,7 @@ TEST(Sampling, MakesChainsUnlessToldOtherwise) {
 
 // In a box as long as two disks and hardly more room, rows are jammed.
 TEST(Sampling, TellsOfChainsThatWereCutShort) {
-  Configuration2 c;
-  c.resize(2);
-  c.box = PeriodicBox<2>(Vec2(4 * (1 + 1e-12), 20));
+  Configuration2 c = equal_bodies(2, {1, 1}, Vec2(4 * (1 + 1e-12), 20));
   c.position[0].x() = -c.box.lengths().x() / 4;
   c.position[1].x() = c.box.lengths().x() / 4;
   SamplingState state;
@@ -59,13 +60,11 @@ TEST(Sampling, GoesOnBitByBitAfterStops) {
     const SamplingOptions options{150, moves, {.trials = 0.2, .partners = 0.5, .collective = 1}};
     SamplingState undisturbed, state;
     sample(whole, options, 3, undisturbed, {});
-    int asked = 0, stops = 0;
-    const RunControl control{[&] { return ++asked % 13 == 0; }, {}, {}};
-    for (; sample(parts, options, 3, state, control).end == StageEnd::stopped; ++stops) {
-    }
-    EXPECT_GT(stops, 5);
-    EXPECT_EQ(parts.position, whole.position);
-    EXPECT_EQ(parts.angle, whole.angle);
+    const auto stage = [&](const auto& control) {
+      return sample(parts, options, 3, state, control);
+    };
+    EXPECT_GT(stops_of(13, stage), 5);
+    expect_same_state(parts, whole);
     EXPECT_EQ(state.chains.length, undisturbed.chains.length);
     EXPECT_EQ(state.chains.counts.contacts, undisturbed.chains.counts.contacts);
     EXPECT_EQ(state.local.translation.size, undisturbed.local.translation.size);
@@ -112,12 +111,9 @@ TEST(Sampling, CountsDecorrelationsAcrossStops) {
       .sweeps = 100000, .exchanges = {.collective = 2}, .decorrelations = 3};
   SamplingState undisturbed, state;
   EXPECT_EQ(sample(whole, options, 3, undisturbed, {}).end, StageEnd::reached);
-  int asked = 0, stops = 0;
-  const RunControl control{[&] { return ++asked % 5 == 0; }, {}, {}};
-  for (; sample(parts, options, 3, state, control).end == StageEnd::stopped; ++stops) {
-  }
-  EXPECT_GT(stops, 2);
-  EXPECT_EQ(parts.position, whole.position);
+  const auto stage = [&](const auto& control) { return sample(parts, options, 3, state, control); };
+  EXPECT_GT(stops_of(5, stage), 2);
+  expect_same_state(parts, whole);
   EXPECT_EQ(state.sweeps(), undisturbed.sweeps());
   EXPECT_EQ(state.decorrelation.count, 3u);
 }

@@ -1,5 +1,6 @@
 #include "mc/swelling.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -7,6 +8,7 @@
 
 #include "core/state/check.h"
 #include "mc/insertion.h"
+#include "tests/support/same_state.h"
 #include "tests/support/scenes.h"
 
 namespace vitrel {
@@ -18,6 +20,15 @@ Configuration2 inserted(std::size_t n, const std::vector<Ellipse>& shapes) {
   for (std::size_t i = 0; i < n; ++i) c.shape[i] = shapes[i % shapes.size()];
   insert_particles(c, {0.3, 100000, false}, 1, {});
   return c;
+}
+
+/// The end of a swelling that is not stopped.
+struct Swollen : StageReport, SwellingState {};
+Swollen swollen(Configuration2& c, double packing_fraction, std::uint64_t sweeps = 1'000'000) {
+  Swollen result;
+  static_cast<StageReport&>(result) = swell(c, {packing_fraction, sweeps}, 1, result, {});
+  EXPECT_TRUE(exact_check(c).clean());
+  return result;
 }
 
 struct Goal {
@@ -36,11 +47,9 @@ class Swelling : public testing::TestWithParam<Goal> {};
 TEST_P(Swelling, ReachesThePackingFractionWithoutOverlap) {
   Configuration2 c = inserted(500, GetParam().shapes);
   const std::vector<Ellipse> shapes(c.shape);
-  SwellingState state;
-  const StageReport report = swell(c, {GetParam().packing_fraction, 1000000}, 1, state, {});
+  const Swollen report = swollen(c, GetParam().packing_fraction);
   EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
   EXPECT_NEAR(packing_fraction(c), GetParam().packing_fraction, 1e-12);
-  EXPECT_TRUE(exact_check(c).clean());
   for (std::size_t i = 0; i < c.size(); ++i) EXPECT_EQ(c.shape[i].a, shapes[i].a);
 }
 
@@ -53,22 +62,18 @@ INSTANTIATE_TEST_SUITE_P(
 // start of so few sweeps stays well below.
 TEST(SwellingLimits, KnowsWhenTheParticlesAreJammed) {
   Configuration2 c = inserted(60, {of_aspect_ratio(1.5)});
-  SwellingState state;
-  const StageReport report = swell(c, {0.95, 1000000}, 1, state, {});
+  const Swollen report = swollen(c, 0.95);
   EXPECT_EQ(report.end, StageEnd::stalled);
-  EXPECT_NE(report.reason.find("jammed"), std::string::npos) << report.reason;
+  EXPECT_THAT(report.reason, testing::HasSubstr("jammed"));
   EXPECT_LT(packing_fraction(c), 0.9069);
   EXPECT_GT(packing_fraction(c), 0.80);
-  EXPECT_TRUE(exact_check(c).clean());
 }
 
 // In a box barely longer than a particle, where it meets its own images.
 TEST(SwellingLimits, MindsImagesInATinyBox) {
   Configuration2 c = inserted(3, {of_aspect_ratio(4)});
-  SwellingState state;
-  const StageReport report = swell(c, {0.5, 1000000}, 1, state, {});
+  const Swollen report = swollen(c, 0.5);
   EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
-  EXPECT_TRUE(exact_check(c).clean());
 }
 
 // A stop in the middle of a round leaves the state at its beginning, hard and of unchanged particles.
@@ -85,19 +90,16 @@ TEST(SwellingLimits, GoesOnBitByBitAfterStops) {
     questions = 0;
   }
   EXPECT_GT(stops, 3u);
-  EXPECT_EQ(parts.position, whole.position);
-  EXPECT_EQ(parts.angle, whole.angle);
+  expect_same_state(parts, whole);
   EXPECT_EQ(state.moves.counts.tried(), undisturbed.moves.counts.tried());
 }
 
 TEST(SwellingLimits, SaysHowFarItGot) {
   Configuration2 c = inserted(100, {of_aspect_ratio(2)});
-  SwellingState state;
-  const StageReport report = swell(c, {0.8, 50}, 1, state, {});
+  const Swollen report = swollen(c, 0.8, 50);
   EXPECT_EQ(report.end, StageEnd::stalled);
-  EXPECT_EQ(state.moves.sweeps, 50u);
-  EXPECT_NE(report.reason.find("0.8"), std::string::npos);
-  EXPECT_TRUE(exact_check(c).clean());
+  EXPECT_EQ(report.moves.sweeps, 50u);
+  EXPECT_THAT(report.reason, testing::HasSubstr("0.8"));
 }
 
 }  // namespace

@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <string>
 #include <tuple>
-#include <vector>
 
 #include "bench/reference/literature.h"
 #include "mc/pressure_sampler.h"
 #include "tests/support/fluids.h"
-#include "tests/support/statistics.h"
+#include "tests/support/visited_states.h"
 
 namespace vitrel {
 namespace {
@@ -22,21 +22,11 @@ struct TableEntry {
 
 Estimate mean_packing_fraction(Configuration2& c, double pressure, BoxChange change) {
   PressureSampler sampler(c, pressure, change, 3);
-  for (int sweep = 0; sweep < 2000; ++sweep) {
-    sampler.sweep();
-    if (sweep % 20 == 19) sampler.tune();
-  }
-  std::vector<double> means;
-  for (int block = 0; block < 24; ++block) {
-    double sum = 0;
-    constexpr int sweeps = 8000;  // in which volumes forget each other
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      sampler.sweep();
-      sum += packing_fraction(c);
-    }
-    means.push_back(sum / sweeps);
-  }
-  return estimate(means);
+  sweep_and_tune(sampler, 2000, 20);
+  constexpr int sweeps = 8000;  // in which volumes forget each other
+  const auto measure = [&] { return std::array{packing_fraction(c)}; };
+  return estimate(block_means(
+      24, sweeps, [&] { sampler.sweep(); }, measure)[0]);
 }
 
 using Case = std::tuple<TableEntry, BoxChange>;

@@ -6,22 +6,19 @@
 #include <vector>
 
 #include "bench/reference/literature.h"
-#include "edmd/run.h"
-#include "edmd/sampling.h"
 #include "mc/contact_pressure.h"
 #include "mc/sampler.h"
 #include "tests/support/fluids.h"
-#include "tests/support/statistics.h"
+#include "tests/support/recorded.h"
+#include "tests/support/visited_states.h"
+#include "tests/support/windows.h"
 
 namespace vitrel {
 namespace {
 
 Estimate monte_carlo(Configuration2& c, int blocks, int samples) {
   Sampler sampler(c, 11);
-  for (int round = 0; round < 100; ++round) {
-    for (int sweep = 0; sweep < 20; ++sweep) sampler.sweep();
-    sampler.tune();
-  }
+  sweep_and_tune(sampler, 2000, 20);
   std::vector<double> values;
   ContactPressure pressure;
   for (int block = 0; block < blocks; ++block) {
@@ -39,15 +36,7 @@ Estimate monte_carlo(Configuration2& c, int blocks, int samples) {
 
 Estimate event_driven(Configuration2 c, int blocks, double window) {
   draw_velocities(c, 7, Purpose::velocities, 0, Temperature::relative);
-  RunState2 state = begin_run(c, -20);
-  Recorder recorder;
-  RunPlan2 plan{linear_times(window, window * blocks), window * blocks, &recorder, {}};
-  run(state, {}, plan, {});
-  std::vector<double> values;
-  for (int k = 0; k < blocks; ++k)
-    values.push_back(virial_compressibility(
-        recorder.frames[k], recorder.tallies[k + 1].virial - recorder.tallies[k].virial, window));
-  return estimate(values);
+  return estimate(virial_compressibilities(run_in_windows(c, -20, window, blocks), window));
 }
 
 // κ = 2, φ = 0.5: Z = 4.492(3), another 0.1 % allowed (oracle: NVT Monte Carlo). 3 standard errors.
@@ -55,10 +44,8 @@ TEST(Compressibility, MonteCarloEventDrivenAndTableAgree) {
   Configuration2 c = swollen_fluid(400, 2, 0.5);
   const Estimate mc = monte_carlo(c, 30, 200);
   const Estimate ed = event_driven(c, 40, 10);
-  RecordProperty("monte_carlo", std::to_string(mc.mean) + " +- " + std::to_string(mc.error));
-  RecordProperty("event_driven", std::to_string(ed.mean) + " +- " + std::to_string(ed.error));
-  std::printf("Z: Monte Carlo %.4f(%.4f), event-driven %.4f(%.4f), table 4.492(3)\n", mc.mean,
-              mc.error, ed.mean, ed.error);
+  record("monte_carlo", mc.mean, mc.error);
+  record("event_driven", ed.mean, ed.error);
   EXPECT_LT(mc.error, 0.02);
   EXPECT_LT(ed.error, 0.015);
   const FluidPressure table = fluid_pressure(2, 0.5);
@@ -67,8 +54,7 @@ TEST(Compressibility, MonteCarloEventDrivenAndTableAgree) {
   EXPECT_NEAR(mc.mean, ed.mean, 3 * std::hypot(mc.error, ed.error));
 }
 
-// Disks in a square box, and in
-// flat ones whose cells and domains are others: two rows of domains, or one.
+// Disks in a square box, and in flat ones whose cells and domains are others: two rows of domains, or one.
 TEST(Compressibility, MonteCarloOfDisks) {
   struct Case {
     double packing_fraction, box_aspect;

@@ -13,9 +13,8 @@
 #include "analysis/dynamics/displacement.h"
 #include "analysis/dynamics/relaxation.h"
 #include "analysis/trajectory.h"
-#include "edmd/run.h"
-#include "edmd/sampling.h"
 #include "tests/support/fluids.h"
+#include "tests/support/runs.h"
 
 namespace vitrel {
 namespace {
@@ -23,15 +22,14 @@ namespace {
 constexpr int runs = 100;
 constexpr double duration = 200, equilibration = 30, interval = 0.5;
 
-Displacements dense_run(const Configuration2& start, std::uint64_t seed) {
-  RunState2 state = begin_run(start, -equilibration);
-  draw_velocities(state.configuration, seed, Purpose::velocities, 0, Temperature::total);
+Displacements dense_run(Configuration2 start, std::uint64_t seed) {
+  draw_velocities(start, seed, Purpose::velocities, 0, Temperature::total);
   DynamicsOptions options;
   options.brownian = true;
   options.seed = seed;
-  Recorder recorder;
-  run(state, options, {linear_times(interval, duration), duration, &recorder, {}}, {});
-  MemoryTrajectory2 trajectory(std::move(recorder.frames));
+  MemoryTrajectory2 trajectory(
+      recorded_run(start, -equilibration, linear_times(interval, duration), duration, options)
+          .frames);
   DisplacementOptions wanted;
   wanted.wave_numbers = {main_wave_number(start)};
   return displacements(trajectory, wanted);

@@ -2,15 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
-#include <cmath>
 #include <vector>
 
-#include "analysis/structure/structure_factor.h"
-#include "edmd/run.h"
-#include "edmd/sampling.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/runs.h"
 #include "tests/support/statistics.h"
+#include "tests/support/structure.h"
 
 namespace vitrel {
 namespace {
@@ -29,45 +26,17 @@ double compressibility(double packing_fraction) {
   return 1 / sum;
 }
 
-/// S₀ of the S₀ + S₂ q² + S₄ q⁴ that fits the shells best, each weighted by its wave vectors: their S
-/// have nearly equal errors, as S varies little below q = 1.
-double value_at_zero(const std::vector<double>& q, const std::vector<double>& s,
-                     const std::vector<double>& modes) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < q.size(); ++k) {
-    if (modes[k] == 0) continue;
-    const Eigen::Vector3d powers(1, q[k] * q[k], std::pow(q[k], 4));
-    normal += modes[k] * powers * powers.transpose();
-    right += modes[k] * s[k] * powers;
-  }
-  return normal.ldlt().solve(right)[0];
-}
-
 // S(q → 0) = ρ kT κ_T. Fixed N is no matter at q ≠ 0 but for O(1/N). 20 independent stretches of 25
 // frames, three standard errors: false alarm 0.3 %, seed fixed.
 TEST(HardDiskStructure, StructureFactorAtSmallWaveNumbersIsTheCompressibility) {
   const double packing_fraction = 0.2;
-  const Configuration2 start = square_lattice(32, packing_fraction, 0, [](std::size_t) {
-    return Ellipse{1, 1};
-  });
+  Configuration2 start = lattice_of_disks(32, packing_fraction);
   const ScatteringShells shells(start.box.lengths(), {1, 0.05});
   std::vector<double> values;
-  Configuration2 moving = start;
-  draw_velocities(moving, 3, Purpose::velocities, 0, Temperature::relative);
-  RunState2 state = begin_run(moving, -200);
-  Recorder recorder;
-  run(state, {}, RunPlan2{linear_times(4, 2000), 2000, &recorder, {}}, {});
-  for (std::size_t stretch = 0; stretch < 20; ++stretch) {
-    std::vector<double> mean;
-    StructureFactor s;
-    for (std::size_t k = 0; k < 25; ++k) {
-      s = shells.structure_factor(recorder.frames[25 * stretch + k]);
-      mean.resize(s.total.size(), 0);
-      for (std::size_t shell = 0; shell < mean.size(); ++shell) mean[shell] += s.total[shell] / 25;
-    }
-    values.push_back(value_at_zero(s.q, mean, s.modes));
-  }
+  draw_velocities(start, 3, Purpose::velocities, 0, Temperature::relative);
+  const Recorder recorder = recorded_run(start, -200, linear_times(4, 2000), 2000);
+  for (std::size_t begin = 0; begin < 500; begin += 25)
+    values.push_back(structure_factor_at_zero(shells, recorder.frames, begin, begin + 25));
   const Estimate zero = estimate(values);
   EXPECT_LT(zero.error, 0.01 * zero.mean);
   EXPECT_NEAR(zero.mean, compressibility(packing_fraction), 3 * zero.error);

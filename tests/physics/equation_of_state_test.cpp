@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "bench/reference/literature.h"
-#include "edmd/run.h"
-#include "edmd/sampling.h"
-#include "tests/support/scenes.h"
-#include "tests/support/statistics.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/recorded.h"
+#include "tests/support/windows.h"
 
 namespace vitrel {
 namespace {
@@ -27,21 +26,16 @@ struct Rates {
 /// the collision time, so that their averages are independent.
 Rates measure(Configuration2 configuration, double relaxation, double window, int blocks) {
   draw_velocities(configuration, 7, Purpose::velocities, 0, Temperature::relative);
-  RunState2 state = begin_run(configuration, -relaxation);
-  Recorder recorder;
-  RunPlan2 plan{linear_times(window, window * blocks), window * blocks, &recorder, {}};
-  run(state, {}, plan, {});
+  const Recorder recorder = run_in_windows(configuration, -relaxation, window, blocks);
   const double n = static_cast<double>(configuration.size());
-  std::vector<double> rates, factors;
+  std::vector<double> rates;
   for (int k = 0; k < blocks; ++k) {
-    const Tally& before = recorder.tallies[k];
-    const Tally& after = recorder.tallies[k + 1];
-    rates.push_back(2.0 * static_cast<double>(after.collisions - before.collisions) / n / window);
-    factors.push_back(
-        virial_compressibility(recorder.frames[k], after.virial - before.virial, window));
+    const auto collisions = recorder.tallies[k + 1].collisions - recorder.tallies[k].collisions;
+    rates.push_back(2.0 * static_cast<double>(collisions) / n / window);
   }
   const double freedoms = 2 * n - 2 + static_cast<double>(rotor_count(configuration));
-  return {estimate(rates), estimate(factors), freedoms, kinetic_temperature(configuration)};
+  return {estimate(rates), estimate(virial_compressibilities(recorder, window)), freedoms,
+          kinetic_temperature(configuration)};
 }
 
 /// Mean |u| of one normalised velocity component at fixed energy over the canonical one: on the
@@ -79,13 +73,11 @@ class HardDisks : public testing::TestWithParam<DiskCase> {};
 // fixed. A window is longer than a sound wave takes to cross the box.
 TEST_P(HardDisks, CompressibilityFromCollisionRateAndVirial) {
   const DiskCase at = GetParam();
-  const Configuration2 start = square_lattice(at.side, at.packing_fraction, 0, [](std::size_t) {
-    return Ellipse{1, 1};
-  });
+  const Configuration2 start = lattice_of_disks(at.side, at.packing_fraction);
   const Rates rates = measure(start, 40, 40, 40);
   const double z = compressibility_from_rate(rates, rates.collision_rate.mean);
   const double error = (z - 1) * rates.collision_rate.error / rates.collision_rate.mean;
-  RecordProperty("Z", std::to_string(z) + " +- " + std::to_string(error));
+  record("Z", z, error);
   const double expected =
       fluid_pressure(1, at.packing_fraction).z +
       finite_size_correction(static_cast<double>(start.size()), at.packing_fraction);
@@ -101,11 +93,9 @@ INSTANTIATE_TEST_SUITE_P(KolafaRottner, HardDisks,
 
 // κ = 2, φ = 0.5 (another 0.1 % allowed).
 TEST(HardEllipses, CompressibilityFromTheVirial) {
-  const Configuration2 start =
-      square_lattice(20, 0.5, std::numbers::pi / 4, [](std::size_t) { return of_aspect_ratio(2); });
+  const Configuration2 start = square_lattice(20, 0.5, std::numbers::pi / 4, of_aspect_ratio(2));
   const Rates rates = measure(start, 60, 10, 30);
-  RecordProperty("Z", std::to_string(rates.compressibility.mean) + " +- " +
-                          std::to_string(rates.compressibility.error));
+  record("Z", rates.compressibility.mean, rates.compressibility.error);
   EXPECT_LT(rates.compressibility.error, 0.015);
   const FluidPressure table = fluid_pressure(2, 0.5);
   EXPECT_NEAR(rates.compressibility.mean, table.z,
@@ -126,8 +116,8 @@ class DiluteEllipses : public testing::TestWithParam<DiluteCase> {};
 TEST_P(DiluteEllipses, CollisionRateTendsToTheKineticOne) {
   const DiluteCase at = GetParam();
   const auto rate_over_density = [&](double packing_fraction) {
-    const Configuration2 start = square_lattice(
-        16, packing_fraction, 0.3, [&](std::size_t) { return of_aspect_ratio(at.aspect_ratio); });
+    const Configuration2 start =
+        square_lattice(16, packing_fraction, 0.3, of_aspect_ratio(at.aspect_ratio));
     const Rates rates = measure(start, 100, 1000, 60);
     const double density = packing_fraction / std::numbers::pi;
     const double scale =
@@ -138,7 +128,7 @@ TEST_P(DiluteEllipses, CollisionRateTendsToTheKineticOne) {
   const Estimate twice = rate_over_density(0.01);
   const double limit = 2 * thin.mean - twice.mean;
   const double error = std::hypot(2 * thin.error, twice.error);
-  RecordProperty("nu0", std::to_string(limit) + " +- " + std::to_string(error));
+  record("nu0", limit, error);
   EXPECT_LT(error, 0.01 * at.rate_over_density);
   EXPECT_NEAR(limit, at.rate_over_density, 3 * error);
 }

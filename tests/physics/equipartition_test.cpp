@@ -7,17 +7,15 @@
 #include <numbers>
 #include <vector>
 
-#include "edmd/run.h"
-#include "edmd/sampling.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 
 namespace vitrel {
 namespace {
 
 Configuration2 scene(int side) {
-  return square_lattice(side, 0.5, std::numbers::pi / 4,
-                        [](std::size_t) { return of_aspect_ratio(2); });
+  return square_lattice(side, 0.5, std::numbers::pi / 4, of_aspect_ratio(2));
 }
 
 class WrongSplit : public testing::TestWithParam<InitialVelocities> {};
@@ -28,11 +26,8 @@ class WrongSplit : public testing::TestWithParam<InitialVelocities> {};
 TEST_P(WrongSplit, RelaxesToEquipartition) {
   Configuration2 start = scene(10);
   set_initial_velocities(start, 1, GetParam(), Temperature::total);
-  RunState2 state = begin_run(start, 0);
-  Recorder recorder;
+  const Recorder recorder = recorded_run(start, 0, linear_times(0.25, 620), 620);
   const double window = 20;
-  RunPlan2 plan{linear_times(0.25, 620), 620, &recorder, {}};
-  run(state, {}, plan, {});
 
   const double first = mechanics(recorder.frames.front()).translational_energy;
   EXPECT_NEAR(first, GetParam() == InitialVelocities::translation ? 150 : 0, 1e-10);
@@ -73,10 +68,7 @@ double kolmogorov_smirnov(std::vector<double> sample) {
 TEST(Velocities, BecomeGaussian) {
   Configuration2 start = scene(16);
   set_initial_velocities(start, 3, InitialVelocities::translation, Temperature::relative);
-  RunState2 state = begin_run(start, -60);
-  Recorder recorder;
-  RunPlan2 plan{linear_times(4, 80), 80, &recorder, {}};
-  run(state, {}, plan, {});
+  const Recorder recorder = recorded_run(start, -60, linear_times(4, 80), 80);
   const double thermal = std::sqrt(kinetic_temperature(start));
   std::vector<double> v, omega;
   for (const Configuration2& frame : recorder.frames)

@@ -10,12 +10,11 @@
 
 #include "core/neighbors/pairs.h"
 #include "core/state/check.h"
-#include "core/state/species.h"
 #include "mc/contact_pressure.h"
 #include "mc/event_chain.h"
-#include "mc/insertion.h"
 #include "mc/sampler.h"
 #include "mc/swelling.h"
+#include "tests/support/polydisperse.h"
 #include "tests/support/statistics.h"
 
 namespace vitrel {
@@ -23,12 +22,7 @@ namespace {
 
 template <int Dim>
 Configuration<Dim> liquid(double aspect_ratio, double packing_fraction) {
-  constexpr double dilute = 0.2;
-  Species species;
-  species.aspect_ratio = Distribution{.mean = aspect_ratio};
-  species.size = Distribution{.kind = Distribution::Kind::uniform, .low = 0.6, .high = 1.4};
-  Configuration<Dim> c = draw_particles<Dim>({species}, 100, dilute, Vec<Dim>::Ones(), 1);
-  insert_particles(c, {dilute}, 1, {});
+  Configuration<Dim> c = polydisperse<Dim>(aspect_ratio, 100, 0.2);
   SwellingState swelling;
   swell(c, {packing_fraction}, 1, swelling, {});
   return c;

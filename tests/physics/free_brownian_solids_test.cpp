@@ -15,10 +15,8 @@
 #include <vector>
 
 #include "analysis/dynamics/displacement.h"
-#include "edmd/run.h"
-#include "edmd/sampling.h"
-#include "tests/support/scenes.h"
-#include "tests/support/solids.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/runs.h"
 
 namespace vitrel {
 namespace {
@@ -30,18 +28,13 @@ constexpr std::size_t lags[] = {2, 5, 12, 30};
 
 /// 27 small bodies so far apart that they do not meet.
 Displacements free_run(const Ellipsoid& shape, std::uint64_t seed) {
-  Configuration3 c = cubic_lattice(
-      side, 1e-12, [&](std::size_t) { return shape; }, seed);
+  Configuration3 c = cubic_lattice(side, 1e-12, shape, seed);
   draw_velocities(c, seed, Purpose::velocities, 0, Temperature::total);
-  RunState3 state = begin_run(c, 0);
-  FrameRecorder<3> recorder;
-  DynamicsOptions options;
-  options.brownian = true;
-  options.brownian_step = step;
+  DynamicsOptions options = brownian(step);
   options.seed = seed;
   constexpr double duration = 6;
-  run(state, options, RunPlan3{linear_times(step, duration), duration, &recorder, {}}, {});
-  EXPECT_EQ(state.counters.collisions, 0u);
+  FrameRecorder<3> recorder = recorded_run(c, 0, linear_times(step, duration), duration, options);
+  EXPECT_EQ(recorder.tallies.back().collisions, 0u);
   MemoryTrajectory3 trajectory(std::move(recorder.frames));
   return displacements(trajectory);
 }

@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "analysis/dynamics/displacement.h"
 #include "analysis/trajectory.h"
-#include "edmd/run.h"
-#include "edmd/sampling.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/runs.h"
 
 namespace vitrel {
 namespace {
@@ -20,17 +20,12 @@ constexpr double step = 0.1;
 
 /// Sixteen small ellipses so far apart that they do not meet.
 std::vector<Configuration2> free_run(std::uint64_t seed, double duration) {
-  Configuration2 c = square_lattice(4, 1e-9, 0, [](std::size_t) { return of_aspect_ratio(3); });
+  Configuration2 c = square_lattice(4, 1e-9, 0, of_aspect_ratio(3));
   draw_velocities(c, seed, Purpose::velocities, 0, Temperature::total);
-  RunState2 state = begin_run(c, 0);
-  Recorder recorder;
-  DynamicsOptions options;
-  options.brownian = true;
-  options.brownian_step = step;
+  DynamicsOptions options = brownian(step);
   options.seed = seed;
-  RunPlan2 plan{linear_times(step, duration), duration, &recorder, {}};
-  run(state, options, plan, {});
-  EXPECT_EQ(state.counters.collisions, 0u);
+  const Recorder recorder = recorded_run(c, 0, linear_times(step, duration), duration, options);
+  EXPECT_EQ(recorder.tallies.back().collisions, 0u);
   return recorder.frames;
 }
 
@@ -66,27 +61,25 @@ TEST(FreeBrownian, DisplacementsEqualTheClosedForm) {
 // binomial deviations (false alarm 0.3 % per lag).
 TEST(FreeBrownian, ErrorBarsCoverTheTruthAsOftenAsTheySay) {
   const std::vector<std::size_t> lags{1, 4, 20};  // at lag 1 · τ_B every step's ⟨v²⟩ is exact
-  std::vector<int> covered_translation(lags.size()), covered_rotation(lags.size());
+  std::vector<std::array<int, 2>> covered(lags.size());  // of translation and of rotation
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     MemoryTrajectory2 trajectory(free_run(seed, 60));
     const DisplacementGroup all = displacements(trajectory).groups.front();
     for (std::size_t k = 0; k < lags.size(); ++k) {
       const std::size_t at = lags[k] - 1;
       const auto steps = static_cast<double>(lags[k]);
-      covered_translation[k] +=
-          std::abs(all.translation.value[at] - msd(steps)) <= all.translation.error[at] + 1e-12;
-      covered_rotation[k] +=
-          std::abs(all.rotation.value[at] - msr(steps)) <= all.rotation.error[at] + 1e-12;
+      const auto covers = [&](const Correlation& found, double truth) {
+        return std::abs(found.value[at] - truth) <= found.error[at] + 1e-12;
+      };
+      covered[k][0] += covers(all.translation, msd(steps));
+      covered[k][1] += covers(all.rotation, msr(steps));
     }
   }
-  EXPECT_EQ(covered_translation[0], 100);
-  EXPECT_EQ(covered_rotation[0], 100);
-  for (std::size_t k = 1; k < lags.size(); ++k) {
-    EXPECT_GE(covered_translation[k], 54) << lags[k];
-    EXPECT_LE(covered_translation[k], 82) << lags[k];
-    EXPECT_GE(covered_rotation[k], 54) << lags[k];
-    EXPECT_LE(covered_rotation[k], 82) << lags[k];
-  }
+  for (std::size_t k = 0; k < lags.size(); ++k)
+    for (const int count : covered[k]) {
+      EXPECT_GE(count, k == 0 ? 100 : 54) << lags[k];
+      EXPECT_LE(count, k == 0 ? 100 : 82) << lags[k];
+    }
 }
 
 }  // namespace

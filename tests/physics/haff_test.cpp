@@ -10,8 +10,9 @@
 
 #include "core/error.h"
 #include "core/state/check.h"
-#include "edmd/run.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/recorded.h"
+#include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 #include "tests/support/theory.h"
 
@@ -45,9 +46,7 @@ struct Cooling {
 
 /// Cools equilibrated disks from T₀ = 1 for `time`.
 Cooling cool(std::uint64_t seed, double restitution, double time) {
-  Configuration2 disks = square_lattice(40, packing_fraction, 0, [](std::size_t) {
-    return Ellipse{1, 1};
-  });
+  Configuration2 disks = lattice_of_disks(40, packing_fraction);
   draw_velocities(disks, seed, Purpose::velocities, 0, Temperature::relative);
   RunState2 state = begin_run(disks, -60);
   run(state, {}, {{}, 0, nullptr, {}}, {});
@@ -56,9 +55,7 @@ Cooling cool(std::uint64_t seed, double restitution, double time) {
   RunState2 cooling = begin_run(state.configuration, 0);
   const Mechanics before = mechanics(cooling.configuration);
   const double hot = kinetic_temperature(cooling.configuration);
-  DynamicsOptions options;
-  options.engine.laws = restitution;
-  run(cooling, options, {{}, time, nullptr, {}}, {});
+  run(cooling, with_laws(restitution), {{}, time, nullptr, {}}, {});
   const Mechanics after = mechanics(cooling.configuration);
   const double ratio = hot / kinetic_temperature(cooling.configuration);
   const double collisions = static_cast<double>(cooling.counters.collisions);
@@ -95,8 +92,8 @@ TEST_P(Haff, CoolingFollowsTheCollisionRate) {
     EXPECT_LT(cooled.energy_defect, 1e-13);
   }
   const Estimate root = estimate(roots), log = estimate(logs);
-  RecordProperty("root", std::to_string(root.mean) + " +- " + std::to_string(root.error));
-  RecordProperty("log", std::to_string(log.mean) + " +- " + std::to_string(log.error));
+  record("root", root.mean, root.error);
+  record("log", log.mean, log.error);
   const double slow = 1.5 * slow_modes(e);
   EXPECT_LT(root.error, 0.004);
   EXPECT_LT(root.mean, 1 + 3 * root.error);
@@ -126,19 +123,14 @@ class InelasticCollapse : public testing::TestWithParam<Collapse> {};
 // 50, R28 (1994)), of two ellipses that roll on each other. The state handed back is hard.
 TEST_P(InelasticCollapse, IsReportedAndNotLoopedOn) {
   const Collapse& at = GetParam();
-  Configuration2 start = square_lattice(at.side, at.packing_fraction, std::numbers::pi / 4,
-                                        [&](std::size_t) { return at.shape; });
+  Configuration2 start =
+      square_lattice(at.side, at.packing_fraction, std::numbers::pi / 4, at.shape);
   set_initial_velocities(start, 5, InitialVelocities::maxwell, Temperature::total);
   RunState2 state = begin_run(start, -5);
   run(state, {}, {{}, 0, nullptr, {}}, {});
-  DynamicsOptions options;
-  options.engine.laws = at.restitution;
-  try {
-    run(state, options, {{}, 1e9, nullptr, {}}, {});
-    FAIL() << "ran to the end";
-  } catch (const InvariantError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("inelastic collapse"));
-  }
+  const auto cool_on = [&] { run(state, with_laws(at.restitution), {{}, 1e9, nullptr, {}}, {}); };
+  EXPECT_THAT(cool_on,
+              testing::ThrowsMessage<InvariantError>(testing::HasSubstr("inelastic collapse")));
   EXPECT_TRUE(exact_check(state.configuration).clean());
   EXPECT_LE(state.energy_drift, 1e-12);
 }
@@ -148,9 +140,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Collapse{"a thousand disks", 32, 0.5, {1, 1}, 0.3},
                     Collapse{"dense disks", 8, 0.7, {1, 1}, 0.2},
                     Collapse{"disks that stick", 32, 0.5, {1, 1}, 0},
-                    Collapse{"a thousand ellipses", 32, 0.5, {std::sqrt(2), std::sqrt(0.5)}, 0.3},
-                    Collapse{
-                        "nearly elastic ellipses", 16, 0.5, {std::sqrt(2), std::sqrt(0.5)}, 0.9}));
+                    Collapse{"a thousand ellipses", 32, 0.5, of_aspect_ratio(2), 0.3},
+                    Collapse{"nearly elastic ellipses", 16, 0.5, of_aspect_ratio(2), 0.9}));
 
 }  // namespace
 }  // namespace vitrel

@@ -8,16 +8,14 @@
 #include <vector>
 
 #include "mc/insertion.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
 
 namespace vitrel {
 namespace {
 
 /// The time τ at which insertion reaches this packing fraction.
 double time_to(double aspect_ratio, double packing_fraction) {
-  Configuration2 c;
-  c.resize(40'000);
-  for (Ellipse& shape : c.shape) shape = of_aspect_ratio(aspect_ratio);
+  Configuration2 c = equal_bodies<2>(40'000, of_aspect_ratio(aspect_ratio));
   const InsertionReport report = insert_particles(c, {packing_fraction, 100'000'000}, 1, {});
   EXPECT_EQ(report.end, StageEnd::reached);
   return static_cast<double>(report.trials) * c.shape[0].volume() / c.box.volume();

@@ -10,11 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "edmd/run.h"
-#include "edmd/sampling.h"
-#include "tests/support/scenes.h"
-#include "tests/support/statistics.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/recorded.h"
 #include "tests/support/theory.h"
+#include "tests/support/windows.h"
 
 namespace vitrel {
 namespace {
@@ -36,18 +35,14 @@ TEST(LowDensity, DisksDiffuseAsEnskogSays) {
   const double enskog = 1.0270 / (2 * density * diameter * g) / std::sqrt(pi);
   const double tau = enskog;
   const double t1 = 3 * tau, t2 = 8 * tau;
-  Configuration2 start = square_lattice(40, packing_fraction, 0, [](std::size_t) {
-    return Ellipse{1, 1};
-  });
+  Configuration2 start = lattice_of_disks(40, packing_fraction);
   draw_velocities(start, 3, Purpose::velocities, 0, Temperature::relative);
 
-  RunState2 state = begin_run(start, -10 * tau);
-  Recorder recorder;
   constexpr int windows = 40;
   std::vector<double> times;
   for (int k = 0; k < windows; ++k) times.insert(times.end(), {k * t2, k * t2 + t1});
   times.push_back(windows * t2);
-  run(state, {}, {times, windows * t2, &recorder, {}}, {});
+  const Recorder recorder = recorded_run(start, -10 * tau, times, windows * t2);
 
   const auto moved = [&](std::size_t from, std::size_t to) {
     double sum = 0;
@@ -63,8 +58,7 @@ TEST(LowDensity, DisksDiffuseAsEnskogSays) {
   }
   ASSERT_EQ(coefficients.size(), static_cast<std::size_t>(windows));
   const Estimate found = estimate(coefficients);
-  RecordProperty("D over Enskog", std::to_string(found.mean / enskog) + " +- " +
-                                      std::to_string(found.error / enskog));
+  record("D over Enskog", found.mean / enskog, found.error / enskog);
   EXPECT_LT(found.error, 0.01 * enskog);
   EXPECT_NEAR(found.mean, enskog, 0.005 * enskog + 3 * found.error);
 }
@@ -87,20 +81,10 @@ constexpr Shape shapes[] = {{2, 2.18882714, 0.750647, 0.471372, 0.264636},
 
 Estimate measured_compressibility(double aspect_ratio, double packing_fraction, double window,
                                   int windows) {
-  Configuration2 start = square_lattice(24, packing_fraction, 0.7,
-                                        [&](std::size_t) { return of_aspect_ratio(aspect_ratio); });
+  Configuration2 start = square_lattice(24, packing_fraction, 0.7, of_aspect_ratio(aspect_ratio));
   draw_velocities(start, 11, Purpose::velocities, 0, Temperature::relative);
-  RunState2 state = begin_run(start, -3 * window);
-  Recorder recorder;
-  const double end = window * windows;
-  run(state, {}, {linear_times(window, end), end, &recorder, {}}, {});
-  std::vector<double> factors;
-  for (std::size_t k = 1; k < recorder.tallies.size(); ++k) {
-    const Tally &before = recorder.tallies[k - 1], &after = recorder.tallies[k];
-    factors.push_back(
-        virial_compressibility(recorder.frames[k], after.virial - before.virial, window));
-  }
-  return estimate(factors);
+  return estimate(
+      virial_compressibilities(run_in_windows(start, -3 * window, window, windows), window));
 }
 
 class Ellipses : public testing::TestWithParam<Shape> {};
@@ -110,7 +94,7 @@ class Ellipses : public testing::TestWithParam<Shape> {};
 TEST_P(Ellipses, PressureFollowsTheVirialSeries) {
   const double packing_fraction = 0.1;
   const Estimate z = measured_compressibility(GetParam().aspect_ratio, packing_fraction, 50, 30);
-  RecordProperty("Z", std::to_string(z.mean) + " +- " + std::to_string(z.error));
+  record("Z", z.mean, z.error);
   const double x = GetParam().b2 * packing_fraction;
   const double left_out = std::pow(x, 5) / 5;
   EXPECT_LT(z.error, 0.005 * (z.mean - 1));

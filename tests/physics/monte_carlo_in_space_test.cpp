@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "edmd/run.h"
-#include "edmd/sampling.h"
 #include "mc/compression.h"
 #include "mc/event_chain.h"
 #include "mc/insertion.h"
@@ -19,10 +18,10 @@
 #include "mc/pressure_sampler.h"
 #include "mc/swelling.h"
 #include "tests/support/chain_pressures.h"
+#include "tests/support/equal_bodies.h"
 #include "tests/support/hard_spheres.h"
-#include "tests/support/scenes.h"
-#include "tests/support/solids.h"
-#include "tests/support/statistics.h"
+#include "tests/support/visited_states.h"
+#include "tests/support/windows.h"
 
 namespace vitrel {
 namespace {
@@ -31,10 +30,7 @@ namespace {
 Configuration3 sphere_fluid(int cells, double packing_fraction) {
   Configuration3 c = cubic_lattice(cells, face_centred_cubic, packing_fraction, {});
   EventChain chains(c, {}, 5);
-  for (int sweep = 0; sweep < 500; ++sweep) {
-    chains.sweep();
-    chains.tune();
-  }
+  sweep_and_tune(chains, 500, 1);
   return c;
 }
 
@@ -49,13 +45,11 @@ int effort() {
 
 /// A fluid of equal bodies of mass 1.
 Configuration3 fluid_of(const Ellipsoid& shape, double packing_fraction) {
-  Configuration3 c;
-  c.resize(343);
-  for (Ellipsoid& each : c.shape) each = shape;
+  Configuration3 c = equal_bodies<3>(343, shape);
   insert_particles(c, {0.2}, 1, {});
   SwellingState swelling;
   swell(c, {packing_fraction}, 1, swelling, {});
-  for (double& mass : c.mass) mass = 1;
+  c.mass.assign(c.size(), 1);
   return c;
 }
 
@@ -77,18 +71,10 @@ TEST(SpheresByMonteCarlo, HaveTheEquationOfState) {
 
 Estimate by_motion(Configuration3 c, FreeRotation rotation) {
   draw_velocities(c, 7, Purpose::velocities, 0, Temperature::relative);
-  RunState3 state = begin_run(c, -5);
-  FrameRecorder<3> recorder;
   const double window = 10. * effort();
-  RunPlan3 plan{linear_times(window, window * blocks), window * blocks, &recorder, {}};
   DynamicsOptions options;
   options.engine.rotation = rotation;
-  run(state, options, plan, {});
-  std::vector<double> values;
-  for (std::size_t k = 0; k < blocks; ++k)
-    values.push_back(virial_compressibility(
-        recorder.frames[k], recorder.tallies[k + 1].virial - recorder.tallies[k].virial, window));
-  return estimate(values);
+  return estimate(virial_compressibilities(run_in_windows(c, -5, window, blocks, options), window));
 }
 
 struct FluidOfSolids {
@@ -146,21 +132,11 @@ TEST(SpheresByMonteCarlo, HaveThePackingFractionOfThePressure) {
   for (const BoxChange change : {BoxChange::isotropic, BoxChange::anisotropic}) {
     Configuration3 c = sphere_fluid(3, phi);
     PressureSampler sampler(c, density * hard_sphere_compressibility_factor(phi), change, 3);
-    for (int sweep = 0; sweep < 1000; ++sweep) {
-      sampler.sweep();
-      if (sweep % 20 == 19) sampler.tune();
-    }
-    std::vector<double> means;
-    for (int block = 0; block < 20; ++block) {
-      double sum = 0;
-      constexpr int sweeps = 2500;
-      for (int sweep = 0; sweep < sweeps; ++sweep) {
-        sampler.sweep();
-        sum += packing_fraction(c);
-      }
-      means.push_back(sum / sweeps);
-    }
-    const Estimate found = estimate(means);
+    sweep_and_tune(sampler, 1000, 20);
+    const auto measure = [&] { return std::array{packing_fraction(c)}; };
+    const auto means = block_means(
+        20, 2500, [&] { sampler.sweep(); }, measure);
+    const Estimate found = estimate(means[0]);
     const double variance = hard_sphere_compressibility(phi) / static_cast<double>(c.size());
     std::printf("spheres at constant pressure: phi %.5f(%.5f), equation of state %g\n", found.mean,
                 found.error, phi);
@@ -177,10 +153,8 @@ TEST(SpheresByMonteCarlo, HaveThePackingFractionOfThePressure) {
 // A crystal of ellipsoids, stretched: at constant angles it is the crystal of spheres. Its pressure at 0.6 by local
 // moves of bodies that may turn is far from that of the fluid; the crystal stays, hard, when the box breathes.
 TEST(CrystalsByMonteCarlo, KeepTheirPlaces) {
-  Configuration3 c;
-  c.resize(256);
-  for (Ellipsoid& shape : c.shape) shape = {Vec3::Ones()};
-  c.box = PeriodicBox<3>(Vec3::Constant(std::cbrt(256 * Ellipsoid{}.volume() / 0.6)));
+  Configuration3 c =
+      equal_bodies<3>(256, {}, Vec3::Constant(std::cbrt(256 * Ellipsoid{}.volume() / 0.6)));
   place_on_lattice(c, {Arrangement::face_centred});
   const std::vector<Vec3> sites = c.position;
   const Vec3 lengths = c.box.lengths();

@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "edmd/run.h"
-#include "tests/support/scenes.h"
-#include "tests/support/statistics.h"
+#include "tests/support/runs.h"
 
 namespace vitrel {
 namespace {
@@ -44,8 +42,7 @@ class Thermometer : public Observer<3> {
 /// Starts with this share of the energy in translation, and samples after the relaxation.
 Temperatures run_and_measure(Configuration3 start, const ContactLaw& law, double translation,
                              double relaxation, double duration, int samples) {
-  DynamicsOptions options;
-  options.engine.laws = law;
+  const DynamicsOptions options = with_laws(law);
   set_initial_velocities(start, 7, InitialVelocities::split, Temperature::relative, {translation},
                          contacts(options.engine));
   RunState3 state = begin_run(start, 0);

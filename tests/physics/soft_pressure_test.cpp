@@ -8,12 +8,10 @@
 #include <numbers>
 #include <string>
 
-#include "edmd/run.h"
-#include "edmd/sampling.h"
 #include "edmd/soft/restitution_table.h"
 #include "edmd/soft/soft_contact.h"
 #include "edmd/soft/viscoelastic.h"
-#include "tests/support/scenes.h"
+#include "tests/support/runs.h"
 
 namespace vitrel {
 namespace {
@@ -67,11 +65,9 @@ TEST(SoftPressure, FollowsTheSecondVirialCoefficient) {
   const RestitutionDomain domain = restitution_domain(force, {&pair, 1}, 1e-3, 12);
   options.engine.soft_contact = std::make_shared<SoftContactOf<Viscoelastic, TabulatedRestitution>>(
       force, TabulatedRestitution(form, RestitutionTable(form, domain, {1e-8}, 2)));
-  RunState3 settled = begin_run(start, 0);
-  run(settled, options, {{}, 2'000, nullptr, {}}, {});
-  RunState3 state = begin_run(settled.configuration, 0);
   const double duration = 30'000;
-  run(state, options, {{}, duration, nullptr, {}}, {});
+  const RunState3 settled = run_until(start, 2'000, options);
+  const RunState3 state = run_until(settled.configuration, duration, options);
 
   const auto met = static_cast<double>(state.counters.collisions);
   const double energy = mechanics(state.configuration).translational_energy / n;

@@ -8,24 +8,20 @@
 #include <string>
 
 #include "edmd/growth.h"
-#include "edmd/run.h"
+#include "tests/support/equal_bodies.h"
 #include "tests/support/hard_spheres.h"
-#include "tests/support/motion.h"
-#include "tests/support/solids.h"
+#include "tests/support/runs.h"
 
 namespace vitrel {
 namespace {
 
 struct Measured {
-  double virial,
-      rate;  // Z − 1 by the virial of the collisions, and collisions per particle and time
+  double virial;  // Z − 1 by the virial of the collisions
+  double rate;    // collisions per particle and time
 };
 
 Measured measure(const Configuration3& start, double settling, double duration) {
-  RunState3 state = begin_run(start, 0.);
-  run(state, {}, {{}, settling, nullptr, {}}, {});
-  RunState3 rest = begin_run(state.configuration, 0.);
-  run(rest, {}, {{}, duration, nullptr, {}}, {});
+  const RunState3 rest = run_until(run_until(start, settling).configuration, duration);
   const double n = static_cast<double>(start.size());
   return {rest.counters.virial / (3 * n * duration),
           2 * static_cast<double>(rest.counters.collisions) / (n * duration)};
@@ -40,7 +36,7 @@ Configuration3 at_temperature_one(Configuration3 c, std::uint64_t seed) {
 // 1.4·10⁶ collisions is 0.15 %, the equation of state is good to 0.05 %, and 1/N is 0.1 %.
 TEST(HardSpheres, CollideAsTheEquationOfStateSays) {
   for (const double phi : {0.1, 0.3, 0.45}) {
-    Configuration3 c = cubic_lattice(10, 0.05, [](std::size_t) { return Ellipsoid{}; });
+    Configuration3 c = cubic_lattice(10, 0.05, Ellipsoid{});
     GrowthOptions options;
     options.growth_rate = 0.05;
     options.packing_fraction = phi;
@@ -69,8 +65,7 @@ class DiluteEllipsoids : public testing::TestWithParam<Shape> {};
 TEST_P(DiluteEllipsoids, CollideAsTheSecondVirialCoefficientSays) {
   const Shape& shape = GetParam();
   const double phi = 0.005, x = shape.b2 * phi;
-  const Configuration3 c = cubic_lattice(
-      12, phi, [&](std::size_t) { return shape.body; }, 7);
+  const Configuration3 c = cubic_lattice(12, phi, shape.body, 7);
   const Measured found = measure(at_temperature_one(c, 8), 20, 800);
   RecordProperty("B2 over V", std::to_string(found.virial / (1 + 0.6 * x) / phi));
   EXPECT_NEAR(found.virial / (x + 0.6 * x * x), 1, 0.025);

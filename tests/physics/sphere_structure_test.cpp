@@ -2,17 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
-#include <cmath>
 #include <vector>
 
 #include "analysis/structure/pair_correlation.h"
-#include "analysis/structure/structure_factor.h"
-#include "edmd/run.h"
-#include "edmd/sampling.h"
 #include "tests/support/hard_spheres.h"
-#include "tests/support/scenes.h"
+#include "tests/support/recorded.h"
+#include "tests/support/runs.h"
 #include "tests/support/statistics.h"
+#include "tests/support/structure.h"
 
 namespace vitrel {
 namespace {
@@ -30,28 +27,10 @@ const std::vector<Configuration3>& frames() {
   static const std::vector<Configuration3> recorded = [] {
     Configuration3 moving = cubic_lattice(6, face_centred_cubic, phi, {});
     draw_velocities(moving, 3, Purpose::velocities, 0, Temperature::relative);
-    RunState3 state = begin_run(moving, -50);
-    FrameRecorder<3> recorder;
     const double interval = 3, end = interval * (stretches * frames_each - 1);
-    run(state, {}, RunPlan3{linear_times(interval, end), end, &recorder, {}}, {});
-    return recorder.frames;
+    return recorded_run(moving, -50, linear_times(interval, end), end).frames;
   }();
   return recorded;
-}
-
-/// c₀ of the Σ c_n x^n, n = 0 … degree, that fits best.
-double value_at_zero(const std::vector<double>& x, const std::vector<double>& y,
-                     const std::vector<double>& weight, int degree) {
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(degree + 1, degree + 1);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(degree + 1);
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    if (weight[k] == 0) continue;
-    Eigen::VectorXd powers(degree + 1);
-    for (int n = 0; n <= degree; ++n) powers[n] = std::pow(x[k], n);
-    normal += weight[k] * powers * powers.transpose();
-    right += weight[k] * y[k] * powers;
-  }
-  return normal.ldlt().solve(right)[0];
 }
 
 /// One value from every stretch of the run: measure(first frame, frame after the last).
@@ -68,18 +47,9 @@ Estimate over_stretches(Measure&& measure) {
 TEST(HardSpheres, StructureFactorAtSmallWaveNumbersIsTheCompressibility) {
   const ScatteringShells<3> shells(frames().front().box.lengths(), {1, 0.05});
   const Estimate zero = over_stretches([&](std::size_t begin, std::size_t end) {
-    std::vector<double> mean, squares;
-    StructureFactor s;
-    for (std::size_t k = begin; k < end; ++k) {
-      s = shells.structure_factor(frames()[k]);
-      mean.resize(s.total.size(), 0);
-      for (std::size_t shell = 0; shell < mean.size(); ++shell)
-        mean[shell] += s.total[shell] / static_cast<double>(end - begin);
-    }
-    for (const double q : s.q) squares.push_back(q * q);
-    return value_at_zero(squares, mean, s.modes, 2);
+    return structure_factor_at_zero(shells, frames(), begin, end);
   });
-  RecordProperty("S(0)", std::to_string(zero.mean) + " +- " + std::to_string(zero.error));
+  record("S(0)", zero.mean, zero.error);
   EXPECT_LT(zero.error, 0.02 * zero.mean);
   EXPECT_NEAR(zero.mean, hard_sphere_compressibility(phi), 3 * zero.error);
 }

@@ -9,7 +9,7 @@
 #include "core/state/check.h"
 #include "edmd/run.h"
 #include "edmd/sampling.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
 
 namespace vitrel {
 namespace {
@@ -30,9 +30,8 @@ void expect_hard_and_conserving(Configuration2 start, double packing_fraction) {
 }
 
 TEST(ThesisScene, NewtonianStaysHardAndConserves) {
-  expect_hard_and_conserving(
-      square_lattice(10, 0.5, std::numbers::pi / 4, [](std::size_t) { return of_aspect_ratio(2); }),
-      0.5);
+  expect_hard_and_conserving(square_lattice(10, 0.5, std::numbers::pi / 4, of_aspect_ratio(2)),
+                             0.5);
 }
 
 // Size ratio 1 : 1.4, aspect ratios 3 and 1.

@@ -10,7 +10,8 @@
 
 #include "edmd/run.h"
 #include "edmd/sampling.h"
-#include "tests/support/scenes.h"
+#include "tests/support/equal_bodies.h"
+#include "tests/support/recorded.h"
 #include "tests/support/theory.h"
 
 namespace vitrel {
@@ -44,8 +45,7 @@ DiffusionCoefficient measured_viscosity(Configuration<Dim> start, double relaxat
 }
 
 void expect_viscosity(const DiffusionCoefficient& found, double enskog, double theory) {
-  testing::Test::RecordProperty("eta over Enskog", std::to_string(found.value / enskog) + " +- " +
-                                                       std::to_string(found.error / enskog));
+  record("eta over Enskog", found.value / enskog, found.error / enskog);
   EXPECT_LT(found.error, 0.05 * enskog);
   EXPECT_NEAR(found.value, enskog, theory * enskog + 3 * found.error);
 }
@@ -56,10 +56,7 @@ void expect_viscosity(const DiffusionCoefficient& found, double enskog, double t
 TEST(Viscosity, DisksAreAsViscousAsEnskogSays) {
   const double phi = 0.1, diameter = 2, g = disk_contact_value(phi), b = 2 * phi;
   const double enskog = 1.022 / (2 * diameter) / std::sqrt(pi) * (1 / g + b + 0.8729 * b * b * g);
-  const Configuration2 start = square_lattice(14, phi, 0, [](std::size_t) {
-    return Ellipse{1, 1};
-  });
-  expect_viscosity(measured_viscosity(start, 38, 3e5), enskog, 0.03);
+  expect_viscosity(measured_viscosity(lattice_of_disks(14, phi), 38, 3e5), enskog, 0.03);
 }
 
 // Enskog with g of Carnahan and Starling and b ρ = 4 φ (hansen2013):

@@ -146,43 +146,37 @@ def test_observables_of_changing_shape_are_refused(tmp_path):
                    observe={"all": lambda state: state.position}, **SMALL)
 
 
-def test_control_c_stops_at_a_checkpoint(tmp_path):
-    script = (
-        "import sys, vitrel\n"
-        "print('begins', flush=True)\n"
-        "try:\n"
-        "    vitrel.run(output=sys.argv[1], particles=100, packing_fraction=0.5, aspect_ratio=2, duration=1e6,\n"
-        "               prepare__quality_sweeps=0, on_frame=lambda state: print(state.time, flush=True))\n"
-        "except KeyboardInterrupt:\n"
-        "    print('interrupted', flush=True)\n")
-    process = subprocess.Popen([sys.executable, "-c", script, tmp_path / "run.h5"], stdout=subprocess.PIPE, text=True)
-    while not process.stdout.readline().startswith("0"):
-        assert process.poll() is None
-    process.send_signal(signal.SIGINT)
-    assert process.stdout.read().splitlines()[-1] == "interrupted"
-    assert process.wait() == 0
-    assert (tmp_path / "run.h5.checkpoint").exists()
-
-
 LONG_RUN = (
     "vitrel.run(output=sys.argv[1], particles=200, packing_fraction=0.6, aspect_ratio=2, equilibration=0,\n"
     "           prepare__quality_sweeps=0, duration={}, samples__interval=0.01, quiet=True{})\n")
 
 
-def test_control_c_stops_an_analysis(tmp_path):
-    script = ("import sys, vitrel\n" + LONG_RUN.format(30, "") +
-              "print('begins', flush=True)\n"
-              "try:\n"
-              "    while True:\n"
-              "        vitrel.load(sys.argv[1]).analyze()\n"
-              "except KeyboardInterrupt:\n"
-              "    print('interrupted', flush=True)\n")
-    process = subprocess.Popen([sys.executable, "-c", script, tmp_path / "run.h5"], stdout=subprocess.PIPE, text=True)
-    assert process.stdout.readline() == "begins\n"
+def interrupted(path, before, work, begins):
+    """What a script prints that is interrupted at work, after the line that begins like this."""
+    script = ("import sys, vitrel\n" + before +
+              "try:\n" + textwrap.indent(work, "    ") +
+              "except KeyboardInterrupt:\n    print('interrupted', flush=True)\n")
+    process = subprocess.Popen([sys.executable, "-c", script, path], stdout=subprocess.PIPE, text=True)
+    while not process.stdout.readline().startswith(begins):
+        assert process.poll() is None
     time.sleep(0.2)
     process.send_signal(signal.SIGINT)
-    assert process.stdout.read() == "interrupted\n"
+    printed = process.stdout.read().splitlines()
     assert process.wait() == 0
+    return printed
+
+
+def test_control_c_stops_at_a_checkpoint(tmp_path):
+    run = ("vitrel.run(output=sys.argv[1], particles=100, packing_fraction=0.5, aspect_ratio=2, duration=1e6,\n"
+           "           prepare__quality_sweeps=0, on_frame=lambda state: print(state.time, flush=True))\n")
+    assert interrupted(tmp_path / "run.h5", "", run, "0")[-1] == "interrupted"
+    assert (tmp_path / "run.h5.checkpoint").exists()
+
+
+def test_control_c_stops_an_analysis(tmp_path):
+    before = LONG_RUN.format(30, "") + "print('begins', flush=True)\n"
+    analyses = "while True:\n    vitrel.load(sys.argv[1]).analyze()\n"
+    assert interrupted(tmp_path / "run.h5", before, analyses, "begins") == ["interrupted"]
 
 
 @pytest.mark.parametrize("work", [

@@ -40,8 +40,9 @@ def test_arrays_make_a_state(state):
 
 
 def test_overlaps_are_found():
-    overlapping = vitrel.State.from_arrays([[0, 0], [1.5, 0], [5, 5]], [1, 1], [20, 20])
+    overlapping = vitrel.State.from_arrays([[0, 0], [1.5, 0], [5, 5]], 1, [20, 20])
     assert overlapping.check()["overlaps"].tolist() == [[0, 1]]
+    assert overlapping.shrunk().check()["overlaps"].size == 0
     shrunk = vitrel.prepare(start=overlapping, shrink=True)
     assert shrunk.check()["overlaps"].size == 0
     assert shrunk.semi_axes[0, 0] == pytest.approx(0.75, rel=1e-6)
@@ -139,8 +140,3 @@ def test_unknown_formats_are_refused_with_those_there_are(state, tmp_path):
 def test_wrong_shapes_are_named(arguments, words):
     with pytest.raises(vitrel.UserError, match=words):
         vitrel.State.from_arrays(*arguments)
-
-
-def test_shrunk_states_have_no_overlaps():
-    overlapping = vitrel.State.from_arrays([[0, 0], [1.5, 0], [5, 5]], 1, [20, 20])
-    assert overlapping.shrunk().check()["overlaps"].size == 0

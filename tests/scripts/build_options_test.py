@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from script_tests import ROOT
 
 
 class BuildOptions(unittest.TestCase):

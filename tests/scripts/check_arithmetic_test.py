@@ -1,12 +1,9 @@
 #!/usr/bin/python3
 """scripts/check_arithmetic finds what leaves bits open: one source with and without each of them."""
 
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-SCRIPT = pathlib.Path(__file__).parents[2] / "scripts" / "check_arithmetic"
+from script_tests import checked
 
 GOOD = """
 double f(Stream& random, const Vec3& u, const Mat3& m) {
@@ -31,11 +28,7 @@ REFUSED = ["std::cbrt(x)", "std::exp2(x)", "std::fma(x, y, z)", "u.dot(v)", "(u 
 
 class CheckArithmetic(unittest.TestCase):
     def complaints(self, line, path="mc/move.cpp"):
-        with tempfile.TemporaryDirectory() as folder:
-            file = pathlib.Path(folder) / path
-            file.parent.mkdir(parents=True)
-            file.write_text(f"void g(Stream& random) {{\n{line};\n}}\n")
-            return subprocess.run([SCRIPT, folder], capture_output=True, text=True).stdout
+        return checked("check_arithmetic", {path: f"void g(Stream& random) {{\n{line};\n}}\n"}).stdout
 
     def test_accepts(self):
         self.assertEqual(self.complaints(GOOD), "")

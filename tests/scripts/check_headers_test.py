@@ -1,12 +1,9 @@
 #!/usr/bin/python3
 """scripts/check_headers finds headers that do not include what they need: one tree with and without each of them."""
 
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-SCRIPT = pathlib.Path(__file__).parents[2] / "scripts" / "check_headers"
+from script_tests import checked
 
 # The first two are precompiled for those that include them.
 GOOD = {
@@ -35,12 +32,7 @@ BAD = {
 
 
 def check(files):
-    with tempfile.TemporaryDirectory() as root:
-        for path, text in files.items():
-            file = pathlib.Path(root, path)
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(f"#pragma once\n{text}", encoding="utf-8")
-        return subprocess.run([SCRIPT, root], capture_output=True, text=True, check=False)
+    return checked("check_headers", {path: f"#pragma once\n{text}" for path, text in files.items()})
 
 
 class CheckHeaders(unittest.TestCase):

@@ -1,12 +1,9 @@
 #!/usr/bin/python3
 """scripts/check_layers finds forbidden includes: one tree with and without each of them."""
 
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-SCRIPT = pathlib.Path(__file__).parents[2] / "scripts" / "check_layers"
+from script_tests import checked
 
 GOOD = {
     "core/geometry/disk.h": '#include "core/tolerances.h"\n#include <vector>\n',
@@ -67,24 +64,15 @@ FORBIDDEN = [
 ]
 
 
-def check(files):
-    with tempfile.TemporaryDirectory() as root:
-        for path, text in files.items():
-            file = pathlib.Path(root, path)
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(text, encoding="utf-8")
-        return subprocess.run([SCRIPT, root], capture_output=True, text=True, check=False)
-
-
 class CheckLayers(unittest.TestCase):
     def test_accepts_includes_that_go_down(self):
-        run = check(GOOD)
+        run = checked("check_layers", GOOD)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
 
     def test_names_every_forbidden_include(self):
         for path, line in FORBIDDEN:
             with self.subTest(path=path, line=line):
-                run = check({**GOOD, path: f"// comment\n{line}\n"})
+                run = checked("check_layers", {**GOOD, path: f"// comment\n{line}\n"})
                 self.assertEqual(run.returncode, 1)
                 self.assertTrue(run.stdout.startswith(f"{path}:2:" if line else f"{path}:"), run.stdout)
                 self.assertEqual(run.stdout.count("\n"), 1, run.stdout)

@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 """scripts/check_returns finds an ignored result of every library: one source with and without each of them."""
 
-import pathlib
 import subprocess
 import tempfile
 import unittest
 
-SCRIPT = pathlib.Path(__file__).parents[2] / "scripts" / "check_returns"
+from script_tests import SCRIPTS
 
 HEADERS = ["hdf5.h", "fftw3.h", "gsl/gsl_multifit_nlinear.h", "png.h", "udunits2.h", "unistd.h", "cstdio", "csignal"]
 CALLS = [
@@ -26,7 +25,7 @@ def check(statements):
         source.writelines(f"#include <{header}>\n" for header in HEADERS)
         source.write("void calls() {\n" + "".join(f"  {statement};\n" for statement in statements) + "}\n")
         source.flush()
-        return subprocess.run([SCRIPT, source.name], capture_output=True, text=True, check=False)
+        return subprocess.run([SCRIPTS / "check_returns", source.name], capture_output=True, text=True, check=False)
 
 
 class CheckReturns(unittest.TestCase):

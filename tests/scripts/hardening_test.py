@@ -2,13 +2,13 @@
 """Builds for packages have Debian's protections, and scripts/check_elf tells programs and libraries that lack them."""
 
 import json
-import pathlib
 import platform
 import subprocess
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from script_tests import ROOT, SCRIPTS, FolderTest, output_of, write_tree
+
 PROJECT = f"""cmake_minimum_required(VERSION 3.25)
 project(sample LANGUAGES CXX)
 include({ROOT}/cmake/options.cmake)
@@ -39,27 +39,19 @@ int main(int, char** words) {
 """
 
 
-def output_of(*command):
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
-
-
 def complaints(*words):
     """What scripts/check_elf finds wrong."""
-    return subprocess.run([ROOT / "scripts/check_elf", *words], capture_output=True, text=True, check=False).stderr
+    return subprocess.run([SCRIPTS / "check_elf", *words], capture_output=True, text=True, check=False).stderr
 
 
-class Hardening(unittest.TestCase):
+class Hardening(FolderTest):
     def build(self, *options):
         """The folder of a small program and its library with the options of the project."""
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        source = pathlib.Path(folder.name)
-        for name, text in (("CMakeLists.txt", PROJECT), ("sample.cpp", SAMPLE), ("program.cpp", PROGRAM)):
-            (source / name).write_text(text, encoding="utf-8")
-        output_of("cmake", "-G", "Ninja", "-S", source, "-B", source / "build", *options)
-        log = output_of("cmake", "--build", source / "build")
-        self.assertNotIn("warning", log)
-        return source / "build"
+        write_tree(self.folder, {"CMakeLists.txt": PROJECT, "sample.cpp": SAMPLE, "program.cpp": PROGRAM})
+        build = self.folder / "build"
+        output_of("cmake", "-G", "Ninja", "-S", self.folder, "-B", build, *options)
+        self.assertNotIn("warning", output_of("cmake", "--build", build))
+        return build
 
     def test_builds_for_packages_are_protected(self):
         build = self.build("-DVITREL_HARDENED=ON")

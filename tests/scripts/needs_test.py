@@ -6,8 +6,9 @@ import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
+
+from script_tests import FolderTest, output_of
 
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 NEEDS = pathlib.Path(__file__).parents[1] / "needs.cmake"
@@ -23,19 +24,16 @@ vitrel_python_test(with_needs COMMAND -c "import h5py" NEEDS h5py)
 
 
 def tests_of(build):
-    done = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, capture_output=True)
-    return json.loads(done.stdout)["tests"]
+    return json.loads(output_of("ctest", "--test-dir", build, "--show-only=json-v1"))["tests"]
 
 
 def labels(test):
     return next((p["value"] for p in test["properties"] if p["name"] == "LABELS"), [])
 
 
-class Needs(unittest.TestCase):
+class Needs(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         (self.folder / "CMakeLists.txt").write_text(PROJECT, encoding="utf-8")
         # An interpreter without any modules.
         subprocess.run([sys.executable, "-m", "venv", "--without-pip", self.folder / "empty"], check=True)

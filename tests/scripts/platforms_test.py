@@ -1,13 +1,9 @@
 #!/usr/bin/python3
 """What the validation of platforms reads in logs and writes on its page."""
 
-import pathlib
-import sys
 import unittest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
-
+import script_tests  # noqa: F401 (makes the scripts importable)
 from validation import platforms, platforms_page  # noqa: E402 (needs the path)
 
 BUILD = """-- Left out: tests that need gmsh

@@ -1,20 +1,15 @@
 #!/usr/bin/python3
 """scripts/checksums keeps results in a file and compares them as if the programs had just run."""
 
-import importlib.machinery
-import importlib.util
 import pathlib
-import sys
 import tempfile
 import unittest
 
 import numpy
 
-SCRIPT = pathlib.Path(__file__).parents[2] / "scripts" / "checksums"
-loader = importlib.machinery.SourceFileLoader("checksums", str(SCRIPT))
-checksums = importlib.util.module_from_spec(importlib.util.spec_from_loader("checksums", loader))
-sys.dont_write_bytecode = True
-loader.exec_module(checksums)
+from script_tests import module_of
+
+checksums = module_of("checksums")
 
 RESULTS = {"packing state.h5 particles/all/position/value": numpy.array([[0.1, 0.2], [0.3, 1.0]]),
            "packing state_results.h5 two_point/rows": numpy.array([1.0, 1e-3, numpy.nan]),

@@ -2,14 +2,10 @@
 """What the validation of self-diffusion computes from displacements and currents."""
 
 import math
-import pathlib
-import sys
 import types
 import unittest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
-
+import script_tests  # noqa: F401 (makes the scripts importable)
 from validation import literature, self_diffusion  # noqa: E402 (needs the path)
 
 

@@ -4,32 +4,22 @@
 import pathlib
 import re
 import shutil
-import subprocess
 import tempfile
 import tomllib
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-
-
-def run(*command):
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+from script_tests import ROOT, FolderTest, output_of
 
 
 def commit_of(sources):
     """The commit that a build of these sources would name."""
     with tempfile.TemporaryDirectory() as build:
         header = pathlib.Path(build, "vitrel_commit.h")
-        run("cmake", f"-DSOURCE={sources}", f"-DOUTPUT={header}", "-P", sources / "cmake/commit.cmake")
+        output_of("cmake", f"-DSOURCE={sources}", f"-DOUTPUT={header}", "-P", sources / "cmake/commit.cmake")
         return re.fullmatch('#define VITREL_COMMIT "(.+)"\n', header.read_text(encoding="utf-8"))[1]
 
 
-class SourceDistribution(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class SourceDistribution(FolderTest):
     def repository(self):
         """A repository of what a source distribution asks for its commit, and that commit."""
         sources = self.folder / "repository"
@@ -37,15 +27,15 @@ class SourceDistribution(unittest.TestCase):
         for name in (".gitignore", "CMakeLists.txt", "cmake/commit.cmake"):
             shutil.copy(ROOT / name, sources / name)
         git = ["git", "-C", sources, "-c", "user.name=name", "-c", "user.email=address"]
-        run(*git, "init", "--quiet")
-        run(*git, "add", "--all")
-        run(*git, "commit", "--quiet", "--message=All.")
-        return sources, run(*git, "rev-parse", "HEAD")
+        output_of(*git, "init", "--quiet")
+        output_of(*git, "add", "--all")
+        output_of(*git, "commit", "--quiet", "--message=All.")
+        return sources, output_of(*git, "rev-parse", "HEAD")
 
     def test_it_says_the_commit_of_the_repository(self):
         sources, commit = self.repository()
         self.assertEqual(commit_of(sources), commit)
-        run("cmake", "-G", "Ninja", "-S", sources, "-B", self.folder / "build", "-DSKBUILD_STATE=sdist")
+        output_of("cmake", "-G", "Ninja", "-S", sources, "-B", self.folder / "build", "-DSKBUILD_STATE=sdist")
         unpacked = self.folder / "unpacked"
         shutil.copytree(sources, unpacked, ignore=shutil.ignore_patterns(".git"))
         self.assertEqual(commit_of(unpacked), "unknown")  # a mere copy, perhaps changed
@@ -53,7 +43,7 @@ class SourceDistribution(unittest.TestCase):
         self.assertEqual(commit_of(unpacked), commit)
 
         # One made from it says the same.
-        run("cmake", "-G", "Ninja", "-S", unpacked, "-B", self.folder / "again", "-DSKBUILD_STATE=sdist")
+        output_of("cmake", "-G", "Ninja", "-S", unpacked, "-B", self.folder / "again", "-DSKBUILD_STATE=sdist")
         self.assertEqual(commit_of(unpacked), commit)
         # The repository itself goes on to say what it is.
         (sources / "CMakeLists.txt").write_text("changed", encoding="utf-8")

@@ -4,14 +4,11 @@
 import math
 import pathlib
 import random
-import sys
 import tomllib
 import unittest
 from unittest import mock
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
-
+import script_tests  # noqa: F401 (makes the scripts importable)
 from validation import comparison, constant_pressure, jamming, liquid_crystal, literature, packings  # noqa: E402 (needs the path)
 from validation.common import Estimate, Failure, estimate, series_estimate  # noqa: E402
 from validation.comparison import Scene, Scenes, Tolerance, compared  # noqa: E402

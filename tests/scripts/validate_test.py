@@ -3,21 +3,15 @@
 sections whose inputs have changed.
 """
 
-import importlib.machinery
-import importlib.util
+import importlib
 import pathlib
-import subprocess
 import sys
-import tempfile
 import types
 import unittest
 
-SCRIPT = pathlib.Path(__file__).parents[2] / "scripts" / "validate"
+from script_tests import ROOT, FolderTest, module_of, output_of
 
-loader = importlib.machinery.SourceFileLoader("validate", str(SCRIPT))
-validate = importlib.util.module_from_spec(importlib.util.spec_from_loader("validate", loader))
-sys.dont_write_bytecode = True
-loader.exec_module(validate)
+validate = module_of("validate")
 
 PAGE = "# Validation\n\nText.\n\n## One\n\nold 1\n\n## One and more\n\nold 2\n"
 
@@ -26,11 +20,10 @@ def failing(_build):
     raise validate.Failure("Z = 3, not 2")
 
 
-class Validate(unittest.TestCase):
+class Validate(FolderTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        validate.PAGE = pathlib.Path(folder.name, "validation.md")
+        super().setUp()
+        validate.PAGE = self.folder / "validation.md"
         validate.circumstances = lambda seconds: "Measured."
 
     def run_validation(self, title, measure):
@@ -79,18 +72,16 @@ class Validate(unittest.TestCase):
             of_parts = getattr(module, "INPUTS", [])
             for inputs in of_parts.values() if isinstance(of_parts, dict) else [of_parts]:
                 for name in inputs:
-                    self.assertTrue((SCRIPT.parents[1] / name).exists(), name)
+                    self.assertTrue((ROOT / name).exists(), name)
 
 
-class Stale(unittest.TestCase):
+class Stale(FolderTest):
     """In a repository with two commits: the second one changes core, which only one of the validations depends on."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name)
-        for name, value in (("ROOT", self.root), ("PAGE", self.root / "docs/validation.md"),
-                            ("STUDIES", self.root / "docs/studies"), ("PLATFORMS", self.root / "docs/platforms.md")):
+        super().setUp()
+        for name, value in (("ROOT", self.folder), ("PAGE", self.folder / "docs/validation.md"),
+                            ("STUDIES", self.folder / "docs/studies"), ("PLATFORMS", self.folder / "docs/platforms.md")):
             self.addCleanup(setattr, validate, name, getattr(validate, name))
             setattr(validate, name, value)
         self.addCleanup(setattr, validate, "names", validate.names)
@@ -105,12 +96,12 @@ class Stale(unittest.TestCase):
 
     def git(self, *words):
         who = ("-c", "user.name=name", "-c", "user.email=address")
-        return subprocess.run(["git", "-C", self.root, *who, *words], check=True, capture_output=True, text=True).stdout.strip()
+        return output_of("git", "-C", self.folder, *who, *words)
 
     def commit(self, *files):
         for file in files:
-            (self.root / file).parent.mkdir(exist_ok=True)
-            with (self.root / file).open("a", encoding="utf-8") as out:
+            (self.folder / file).parent.mkdir(exist_ok=True)
+            with (self.folder / file).open("a", encoding="utf-8") as out:
                 out.write("line\n")
         self.git("add", "--all")
         self.git("commit", "--quiet", "--message=All.")
@@ -118,12 +109,12 @@ class Stale(unittest.TestCase):
 
     def pages(self, since):
         measured = f"Measured on 2026-11-21, commit {since}, a processor, in 9 s.\n"
-        (self.root / "docs/studies").mkdir(parents=True, exist_ok=True)
+        (self.folder / "docs/studies").mkdir(parents=True, exist_ok=True)
         validate.PAGE.write_text("# Validation\n\n" + "\n".join(
             f"## {title}\n\nCommand: `scripts/validate {name}`\n\nText (commit 1234567).\n\n{measured}"
             for title, name in (("One", "first"), ("Two", "second"), ("Three", "removed"))))
         for name in ("engine", "sampling"):
-            (self.root / f"docs/studies/{name}.md").write_text(f"# A question?\n\n{measured}")
+            (self.folder / f"docs/studies/{name}.md").write_text(f"# A question?\n\n{measured}")
         validate.PLATFORMS.write_text(f"# Platforms\n\n- Debian 12, GCC: 2026-11-27, commit {since}, a processor\n")
 
     def test_lists_what_is_older_than_its_inputs(self):
