@@ -8,14 +8,11 @@
 #include <cmath>
 
 #include "core/random/stream.h"
+#include "tests/support/overlap_criteria.h"
 #include "tests/support/solids.h"
 
 namespace vitrel {
 namespace {
-
-double support(const Ellipsoid& body, const Quaternion& orientation, const Vec3& n) {
-  return (body.semi_axes.asDiagonal() * (orientation.conjugate() * n)).norm();
-}
 
 // The nearest points by trying all pieces: ends against segments, and the lines.
 double distance_of_segments(const Vec3& h1, const Vec3& h2, const Vec3& d) {
@@ -45,7 +42,7 @@ TEST(Capsules, HoldTheirEllipsoids) {
     const Capsule capsule = CapsuleOf(body).at(q, size);
     const Vec3 axis = random_direction(draw);
     const double room =
-        std::abs(capsule.half.dot(axis)) + capsule.radius - size * support(body, q, axis);
+        std::abs(capsule.half.dot(axis)) + capsule.radius - size * support_function(body, q, axis);
     ASSERT_GE(room, -1e-14 * capsule.radius);
     tightest = std::min(tightest, room / capsule.radius);
   }

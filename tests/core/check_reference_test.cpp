@@ -2,12 +2,8 @@
 
 #include <cmath>
 
-#include "core/contact/ellipse_vieillard_baron.h"
-#include "core/contact/ellipsoid_eta.h"
 #include "core/special_values.h"
-#include "core/state/exact_pair.h"
 #include "tests/support/exact_checks.h"
-#include "tests/support/solids.h"
 
 /// The exact check against a plain scan of all pairs and images in long double, without cells and without
 /// rejections in double precision. The scan judges round bodies by the general criteria, too.
@@ -16,16 +12,6 @@ namespace {
 
 using Real = Extended;
 using std::abs;  // beside that of DoubleDouble
-
-bool apart_by_criterion(const exact::Particle<2>& one, const exact::Particle<2>& two,
-                        const exact::Point<2>& d) {
-  return vieillard_baron<Real>(one.axes, two.axes, d.x(), d.y()).disjoint_or_touching();
-}
-
-bool apart_by_criterion(const exact::Particle<3>& one, const exact::Particle<3>& two,
-                        const exact::Point<3>& d) {
-  return ellipsoid_eta<Real>(one.axes, two.axes, d).disjoint_or_touching();
-}
 
 /// Images up to `boxes` box lengths away.
 template <int Dim>
@@ -73,14 +59,6 @@ Ellipsoid random_shape(Stream& draw, double round_share, const Ellipsoid&) {
   return scaled(random_ellipsoid(draw, 6), size);
 }
 
-void turn_at_random(Stream& draw, Configuration2& state, std::size_t i) {
-  state.angle[i] = draw.uniform(-9, 9);
-}
-
-void turn_at_random(Stream& draw, Configuration3& state, std::size_t i) {
-  state.orientation[i] = random_orientation(draw);
-}
-
 /// n particles of random sizes anywhere, a given share of them round.
 template <int Dim>
 Configuration<Dim> random_state(Stream& draw, std::size_t n, const Vec<Dim>& lengths,
@@ -90,7 +68,7 @@ Configuration<Dim> random_state(Stream& draw, std::size_t n, const Vec<Dim>& len
   for (std::size_t i = 0; i < n; ++i) {
     state.shape[i] = random_shape(draw, round_share, ParticleShape<Dim>{});
     for (int k = 0; k < Dim; ++k) state.position[i][k] = draw.uniform(-0.5, 0.5) * lengths[k];
-    turn_at_random(draw, state, i);
+    turn(state, i, random_turn<Dim>(draw));
   }
   return state;
 }

@@ -53,13 +53,21 @@ class LanesOfAScreen : public testing::Test {};
 using Bodies = testing::Types<Ellipse, GrowingEllipse>;
 TYPED_TEST_SUITE(LanesOfAScreen, Bodies);
 
+/// Returns the screen of a disk at rest at the origin.
+template <class B>
+ContactScreen<B> screen_at_rest() {
+  return {ShapeCoefficients<Ellipse>(Ellipse{1, 1}),
+          flight_record<B>({Vec2::Zero(), 0}, {Vec2::Zero(), 0}),
+          0,
+          {},
+          1e-12};
+}
+
 // Lanes beyond the count, with bodies that touch at once, have no effect.
 TYPED_TEST(LanesOfAScreen, BeyondTheCountNeverWin) {
   constexpr int lanes = ContactScreen<TypeParam>::lanes;
-  const ShapeCoefficients<Ellipse> coefficients(Ellipse{1, 1});
   for (int count = 0; count <= lanes; ++count) {
-    ContactScreen<TypeParam> screen(
-        coefficients, flight_record<TypeParam>({Vec2::Zero(), 0}, {Vec2::Zero(), 0}), 0, {}, 1e-12);
+    ContactScreen<TypeParam> screen = screen_at_rest<TypeParam>();
     ScreenPartners<TypeParam> partners;
     for (int k = 0; k < lanes; ++k)
       partners.set(k, {Vec2(k < count ? 3 + k : 2.001, 0), 0}, {Vec2(-1, 0), 0}, Vec2(1, 0));
@@ -73,9 +81,7 @@ TYPED_TEST(LanesOfAScreen, BeyondTheCountNeverWin) {
 // Contacts that a partner knows itself, or all if it knows everything, do not matter.
 TYPED_TEST(LanesOfAScreen, EndAtWhatThePartnerKnows) {
   constexpr int lanes = ContactScreen<TypeParam>::lanes;
-  const ShapeCoefficients<Ellipse> coefficients(Ellipse{1, 1});
-  ContactScreen<TypeParam> screen(
-      coefficients, flight_record<TypeParam>({Vec2::Zero(), 0}, {Vec2::Zero(), 0}), 0, {}, 1e-12);
+  ContactScreen<TypeParam> screen = screen_at_rest<TypeParam>();
   ScreenPartners<TypeParam> partners;
   const double known_until[] = {infinity, 0.9, 1.1, -infinity};
   for (int k = 0; k < lanes; ++k)
@@ -203,6 +209,13 @@ ContactScreen<B> evaluated(const EllipsePairAt& pair, const CommonSize& common, 
   return screen;
 }
 
+/// Returns the earliest time that the screen gives of the pair.
+template <class B>
+double time_of(const EllipsePairAt& pair, const CommonSize& common, double contact_gap,
+               const Vec2& axis, double horizon) {
+  return evaluated<B>(pair, common, contact_gap, axis, horizon).earliest().time;
+}
+
 /// Speed at which the gap along n changes, and the most by which its rate can fall in a unit of time
 /// (without growth): ġ = n·v + Σ ω h', h' = (a² − b²)(u·n)(u·dn/dφ)/h; |h''| ≤ (a² − b²)/b.
 double gap_rate(const EllipsePairAt& pair, const Vec2& n) {
@@ -240,16 +253,12 @@ TEST(ContactScreenOfEllipses, SettlesAPairThatHasJustCollided) {
     }
     const double apart_until = 2 * std::abs(rate) / largest_fall(pair);
     for (const double horizon : {0.5 * apart_until, 10 * apart_until}) {
-      const double still = evaluated<Ellipse>(pair, {}, contact_gap, n, horizon).earliest().time;
-      const double grows =
-          evaluated<GrowingEllipse>(pair, {1, 0}, contact_gap, n, horizon).earliest().time;
-      if (horizon < apart_until) {
-        EXPECT_EQ(still, infinity);
-        EXPECT_EQ(grows, infinity);
-      } else {
-        EXPECT_GE(still, (1 - 1e-9) * apart_until);
-        EXPECT_GE(grows, (1 - 1e-9) * apart_until);
-      }
+      for (const double time : {time_of<Ellipse>(pair, {}, contact_gap, n, horizon),
+                                time_of<GrowingEllipse>(pair, {1, 0}, contact_gap, n, horizon)})
+        if (horizon < apart_until)
+          EXPECT_EQ(time, infinity);
+        else
+          EXPECT_GE(time, (1 - 1e-9) * apart_until);
     }
     ++settled;
   }
@@ -268,9 +277,7 @@ TEST(ContactScreenOfEllipses, LooksAtLeastAsFarAsThePlainBound) {
     const double rate = gap_rate(pair, n), fall = largest_fall(pair);
     const double room = gap - contact_gap;
     const double bound = (rate + std::sqrt(rate * rate + 2 * fall * room)) / fall;
-    const double horizon = 1e3;
-    EXPECT_GE(evaluated<Ellipse>(pair, {}, contact_gap, n, horizon).earliest().time,
-              (1 - 1e-6) * bound);
+    EXPECT_GE(time_of<Ellipse>(pair, {}, contact_gap, n, 1e3), (1 - 1e-6) * bound);
   }
 }
 
@@ -344,9 +351,8 @@ TEST(ContactScreenOfEllipses, AnglesMayBeLarge) {
     same.pose1.angle = remainder(pair.pose1.angle);
     same.pose2.angle = remainder(pair.pose2.angle);
     pair.pose2.position = same.pose2.position = (pair.one.a + pair.two.a) * n;
-    const double horizon = 3;
-    const double time = evaluated<Ellipse>(pair, {}, 1e-12, n, horizon).earliest().time;
-    const double wanted = evaluated<Ellipse>(same, {}, 1e-12, n, horizon).earliest().time;
+    const double time = time_of<Ellipse>(pair, {}, 1e-12, n, 3);
+    const double wanted = time_of<Ellipse>(same, {}, 1e-12, n, 3);
     if (wanted == infinity)
       EXPECT_EQ(time, infinity);
     else

@@ -1,16 +1,13 @@
+// Three criteria of overlap of ellipses agree with one another and with closed forms.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <string>
 
-#include "core/contact/ellipse_gap.h"
-#include "core/contact/ellipse_vieillard_baron.h"
-#include "core/contact/perram_wertheim.h"
 #include "core/random/stream.h"
-#include "tests/support/posed_pair.h"
+#include "tests/support/overlap_criteria.h"
 
 namespace vitrel {
 namespace {
@@ -19,23 +16,6 @@ constexpr double pi = std::numbers::pi;
 
 Vec2 unit(double angle) {
   return {std::cos(angle), std::sin(angle)};
-}
-
-VieillardBaron<double> psi_of(const PosedPair& p) {
-  return vieillard_baron(p.one, p.angle1, p.two, p.angle2, p.d);
-}
-PerramWertheim<2> f_of(const PosedPair& p) {
-  return perram_wertheim(p.one, p.angle1, p.two, p.angle2, p.d);
-}
-SupportGap gap_of(const PosedPair& p) {
-  return support_gap(p.one, p.angle1, p.two, p.angle2, p.d);
-}
-double contact_distance_of(const PosedPair& p) {
-  return contact_distance(p.one, p.angle1, p.two, p.angle2, p.d);
-}
-
-double log_uniform(Stream& draw, double low, double high) {
-  return low * std::exp(draw.uniform() * std::log(high / low));
 }
 
 /// κ of both 1…50, ratio of their sizes √(ab) 1…100 either way round, any orientation.
@@ -50,42 +30,19 @@ PosedPair random_bodies(Stream& draw) {
           draw.uniform(-pi, pi), draw.uniform(-pi, pi), Vec2::Zero()};
 }
 
-/// A third each: anywhere within the circumcircles, around the contact distance (half overlap), and
-/// at the contact distance times 1 ± 10⁻¹ … 10⁻¹⁵.
+/// Gives each placement to a third of the pairs.
 PosedPair random_pair(Stream& draw) {
-  PosedPair pair = random_bodies(draw);
+  const PosedPair bodies = random_bodies(draw);
   const Vec2 e = unit(draw.uniform(-pi, pi));
-  const std::uint64_t kind = draw.below(3);
-  if (kind == 0) return pair.with(draw.uniform() * (pair.one.a + pair.two.a) * e);
-  const double contact = contact_distance_of(pair.with(e));
-  if (kind == 1) return pair.with(draw.uniform(0, 2) * contact * e);
-  const double offset = std::pow(10, -draw.uniform(1, 15));
-  return pair.with(contact * (draw.uniform() < 0.5 ? 1 + offset : 1 - offset) * e);
+  const Placement placement = random_placement(draw);
+  return placed(bodies, placement, e, draw);
 }
 
-double support_sum(const PosedPair& pair, const Vec2& n) {
-  return support(pair.one, unit(pair.angle1), n) + support(pair.two, unit(pair.angle2), n);
-}
-
-std::uint64_t pairs_to_compare() {
-  const char* given = std::getenv("VITREL_CONTACT_PAIRS");
-  return given ? std::stoull(given) : 1'000'000;
-}
-
-/// Whether the support gap proves that the surfaces are closer than `margin`: as a distance if they
-/// are disjoint; if they overlap, by the proof that a shift by `margin` along the normal separates
-/// them.
-bool closer_than(double margin, const PosedPair& pair, const Vec2& normal) {
-  const double gap = gap_of(pair).gap;
-  return gap > 0 ? gap < margin : gap_of(pair.with(pair.d + margin * normal)).gap > 0;
-}
-
-// The number of pairs can be raised by the environment variable VITREL_CONTACT_PAIRS. A verdict may
-// differ only if the surfaces are closer than 1e-9 b, both by the support gap and by Perram and
-// Wertheim's function, from which the distance is (μ − 1)(h₁ + h₂) to first order.
+// A verdict may differ only if the surfaces are closer than 1e-9 b, both by the support gap and by Perram
+// and Wertheim's function.
 TEST(OverlapCriteria, ThreeCriteriaAgreeOnRandomPairs) {
   Stream draw(1, Purpose::tests);
-  const std::uint64_t pairs = pairs_to_compare();
+  const std::uint64_t pairs = pairs_to_compare(1'000'000);
   std::uint64_t overlapping = 0, close = 0, blurred = 0;
   double largest_blurred = 0;
   for (std::uint64_t k = 0; k < pairs; ++k) {
@@ -93,14 +50,14 @@ TEST(OverlapCriteria, ThreeCriteriaAgreeOnRandomPairs) {
     const PerramWertheim<2> f = f_of(pair);
     const bool disjoint = gap_of(pair).gap > 0;
     const double b = std::min(pair.one.b, pair.two.b);
-    const double distance = (std::sqrt(f.value) - 1) * support_sum(pair, f.normal);
+    const double distance = std::abs(distance_by(f, pair));
     overlapping += !disjoint;
-    close += std::abs(distance) < 1e-6 * b;
+    close += distance < 1e-6 * b;
     if (disjoint == f.disjoint() && disjoint == psi_of(pair).disjoint()) continue;
     ++blurred;
-    largest_blurred = std::max(largest_blurred, std::abs(distance) / b);
+    largest_blurred = std::max(largest_blurred, distance / b);
     ASSERT_TRUE(closer_than(1e-9 * b, pair, f.normal)) << pair;
-    ASSERT_LT(std::abs(distance), 1e-9 * b) << pair;
+    ASSERT_LT(distance, 1e-9 * b) << pair;
   }
   RecordProperty("blurred", std::to_string(blurred));
   RecordProperty("largest_blurred_gap_over_1e-12_b", std::to_string(largest_blurred * 1e12));
@@ -115,36 +72,26 @@ TEST(OverlapCriteria, OrdinaryPairsAgreeDownToRounding) {
   Stream draw(2, Purpose::tests);
   for (int k = 0; k < 100'000; ++k) {
     const double kappa = draw.uniform(1, 6);
-    PosedPair pair{
+    const PosedPair pair{
         {kappa, 1}, {kappa, 1}, draw.uniform(-pi, pi), draw.uniform(-pi, pi), Vec2::Zero()};
     const Vec2 e = unit(draw.uniform(-pi, pi));
     const double offset = std::pow(10, -draw.uniform(1, 13));
     const double contact = contact_distance_of(pair.with(e));
-    for (double sign : {-1, 1}) {
-      pair.d = contact * (1 + sign * offset) * e;
-      EXPECT_EQ(gap_of(pair).gap > 0, sign > 0) << pair;
-      EXPECT_EQ(f_of(pair).disjoint(), sign > 0) << pair;
-      EXPECT_EQ(psi_of(pair).disjoint(), sign > 0) << pair;
-    }
+    for (double sign : {-1, 1})
+      expect_verdict(pair.with(contact * (1 + sign * offset) * e), sign > 0);
   }
 }
 
-void expect_overlap_despite_positive_psi(const PosedPair& pair) {
-  EXPECT_GT(psi_of(pair).psi, 0) << pair;
-  EXPECT_FALSE(psi_of(pair).disjoint()) << pair;
-  EXPECT_FALSE(f_of(pair).disjoint()) << pair;
-  EXPECT_LE(gap_of(pair).gap, 0) << pair;
-}
-
-TEST(VieillardBaron, PositivePsiAloneIsWrongForCrossedEllipses) {
-  expect_overlap_despite_positive_psi({{2, 1}, {2, 1}, 0, pi / 2, {0, 0}});
-  expect_overlap_despite_positive_psi({{6, 1}, {6, 1}, 0.3, 1.6, {0.5, 0.4}});
-  expect_overlap_despite_positive_psi({{50, 1}, {3, 0.1}, 0, 1.2, {30, 0.5}});
-}
-
-TEST(VieillardBaron, PositivePsiAloneIsWrongForContainedEllipses) {
-  expect_overlap_despite_positive_psi({{4, 3}, {1, 0.5}, 0.2, 1.4, {1, 0.3}});
-  expect_overlap_despite_positive_psi({{1, 0.5}, {40, 30}, 0.2, 1.4, {3, -5}});
+TEST(VieillardBaron, PositivePsiAloneIsWrongForCrossedAndContainedEllipses) {
+  const PosedPair pairs[] = {{{2, 1}, {2, 1}, 0, pi / 2, {0, 0}},
+                             {{6, 1}, {6, 1}, 0.3, 1.6, {0.5, 0.4}},
+                             {{50, 1}, {3, 0.1}, 0, 1.2, {30, 0.5}},
+                             {{4, 3}, {1, 0.5}, 0.2, 1.4, {1, 0.3}},
+                             {{1, 0.5}, {40, 30}, 0.2, 1.4, {3, -5}}};
+  for (const PosedPair& pair : pairs) {
+    EXPECT_GT(psi_of(pair).psi, 0) << pair;
+    expect_verdict(pair, false);
+  }
 }
 
 // The source of the complete criterion: of random pairs of equal ellipses closer than 2a, Ψ > 0
@@ -189,8 +136,8 @@ TEST(VieillardBaron, EqualsTheMatrixFormula) {
                          draw.uniform(-pi, pi),
                          draw.uniform(-pi, pi),
                          {draw.uniform(-3, 3), draw.uniform(-3, 3)}};
-    const Mat2 sigma1 = shape_matrix(pair.one, pair.angle1);
-    const Mat2 sigma2 = shape_matrix(pair.two, pair.angle2);
+    const Mat2 sigma1 = shape_matrix(pair.one, pair.turn1);
+    const Mat2 sigma2 = shape_matrix(pair.two, pair.turn2);
     const Mat2 a1 = sigma1.inverse(), a2 = sigma2.inverse();
     const double g1 = 1 + (sigma1 * a2).trace() - pair.d.dot(a2 * pair.d);
     const double g2 = 1 + (sigma2 * a1).trace() - pair.d.dot(a1 * pair.d);
@@ -216,62 +163,38 @@ TEST(VieillardBaron, EqualDisksInClosedForm) {
   }
 }
 
-// F(λ) by the definition, with the matrices and 100 steps of golden section.
 TEST(PerramWertheim, ValueIsTheMaximumOfTheDefinition) {
   Stream draw(6, Purpose::tests);
   for (int k = 0; k < 2000; ++k) {
-    PosedPair pair{{draw.uniform(1, 5), draw.uniform(0.5, 1)},
-                   {draw.uniform(1, 5), draw.uniform(0.5, 1)},
-                   draw.uniform(-pi, pi),
-                   draw.uniform(-pi, pi),
-                   {draw.uniform(-8, 8), draw.uniform(-8, 8)}};
-    const Mat2 sigma1 = shape_matrix(pair.one, pair.angle1);
-    const Mat2 sigma2 = shape_matrix(pair.two, pair.angle2);
-    const auto f = [&](double x) {
-      return x * (1 - x) * pair.d.dot(((1 - x) * sigma1 + x * sigma2).inverse() * pair.d);
-    };
-    double low = 0, high = 1;
-    const double golden = (std::sqrt(5) - 1) / 2;
-    for (int step = 0; step < 100; ++step) {
-      const double left = high - golden * (high - low), right = low + golden * (high - low);
-      f(left) < f(right) ? low = left : high = right;
-    }
+    const PosedPair pair{{draw.uniform(1, 5), draw.uniform(0.5, 1)},
+                         {draw.uniform(1, 5), draw.uniform(0.5, 1)},
+                         draw.uniform(-pi, pi),
+                         draw.uniform(-pi, pi),
+                         {draw.uniform(-8, 8), draw.uniform(-8, 8)}};
     const PerramWertheim<2> found = f_of(pair);
-    EXPECT_NEAR(found.value, f(low), 1e-12 * found.value) << pair;
-    EXPECT_NEAR(found.lambda, low, 1e-6) << pair;
-    EXPECT_NEAR(f(found.lambda), found.value, 1e-12 * found.value) << pair;
+    const double best = lambda_by_golden_section(pair);
+    EXPECT_NEAR(found.value, f_by_definition(pair, best), 1e-12 * found.value) << pair;
+    EXPECT_NEAR(found.lambda, best, 1e-6) << pair;
+    EXPECT_NEAR(f_by_definition(pair, found.lambda), found.value, 1e-12 * found.value) << pair;
   }
 }
 
-// What F means: scaled by μ = √F about their centres the ellipses touch, at `point` along `normal`.
 TEST(PerramWertheim, NormalAndPointBelongToBothScaledEllipses) {
   Stream draw(7, Purpose::tests);
   for (int k = 0; k < 100'000; ++k) {
-    PosedPair pair = random_pair(draw);
+    const PosedPair pair = random_pair(draw);
     if (pair.d.norm() < 1e-3) continue;
-    const PerramWertheim<2> f = f_of(pair);
-    const double mu = std::sqrt(f.value);
     const double extent = std::max(pair.one.a, pair.two.a);
-    EXPECT_NEAR(f.normal.norm(), 1, 1e-14);
-    EXPECT_LT((f.point - mu * surface_point(pair.one, unit(pair.angle1), f.normal)).norm(),
-              1e-13 * mu * extent)
-        << pair;
-    const Vec2 from2 = f.point - pair.d;
-    EXPECT_LT((from2 + mu * surface_point(pair.two, unit(pair.angle2), f.normal)).norm(),
-              2e-11 * mu * extent)
-        << pair;
+    expect_touch_of_scaled_bodies(pair, 1e-13 * extent, 2e-11 * extent);
   }
 }
 
 TEST(PerramWertheim, ScalesWithTheSquareOfTheSeparation) {
-  const PosedPair pair{{3, 1}, {2, 0.5}, 0.4, 2, {1.5, -2.5}};
-  const double value = f_of(pair).value;
-  for (double factor : {1e-150, 1e-8, 0.5, 3.0, 1e8})
-    EXPECT_NEAR(f_of(pair.with(factor * pair.d)).value / (factor * factor * value), 1, 1e-13);
+  expect_f_scales_with_the_square_of(PosedPair{{3, 1}, {2, 0.5}, 0.4, 2, {1.5, -2.5}});
 }
 
 TEST(PerramWertheim, CoincidingCentresOverlap) {
-  const PerramWertheim<2> f = f_of({{3, 1}, {2, 0.5}, 0.4, 2, {0, 0}});
+  const PerramWertheim<2> f = f_of(PosedPair{{3, 1}, {2, 0.5}, 0.4, 2, {0, 0}});
   EXPECT_EQ(f.value, 0);
   EXPECT_FALSE(f.disjoint());
 }
@@ -280,7 +203,6 @@ TEST(OverlapCriteria, ExchangingTheEllipsesChangesNothing) {
   Stream draw(8, Purpose::tests);
   for (int k = 0; k < 100'000; ++k) {
     const PosedPair pair = random_pair(draw);
-    const double extent = pair.one.a + pair.two.a;
     const VieillardBaron<double> psi = psi_of(pair), psi_swapped = psi_of(pair.swapped());
     EXPECT_EQ(psi.g1, psi_swapped.g2) << pair;
     EXPECT_EQ(psi.g2, psi_swapped.g1) << pair;
@@ -288,7 +210,7 @@ TEST(OverlapCriteria, ExchangingTheEllipsesChangesNothing) {
     EXPECT_NEAR(f.value, f_swapped.value, 1e-13 * f.value) << pair;
     const double gap = gap_of(pair).gap;
     if (gap > 0) {
-      EXPECT_NEAR(gap, gap_of(pair.swapped()).gap, 1e-13 * extent) << pair;
+      EXPECT_NEAR(gap, gap_of(pair.swapped()).gap, 1e-13 * pair.extent()) << pair;
     }
   }
 }
@@ -309,17 +231,6 @@ TEST(PerramWertheim, ExchangingTheEllipsesTurnsTheNormal) {
   }
 }
 
-/// Where `disjoint` turns from false to true along d, by bisection.
-template <class Disjoint>
-double first_disjoint(const PosedPair& pair, Disjoint&& disjoint) {
-  double low = 0, high = pair.one.a + pair.two.a + 1;
-  for (int step = 0; step < 80; ++step) {
-    const double middle = 0.5 * (low + high);
-    (disjoint(pair.with(middle * pair.d)) ? high : low) = middle;
-  }
-  return high;
-}
-
 // Two ellipses with (a, b) = (2, 1); independent computation, the second and third in closed form.
 TEST(ContactDistance, ReferenceValuesByAllThreeCriteria) {
   const struct {
@@ -332,16 +243,7 @@ TEST(ContactDistance, ReferenceValuesByAllThreeCriteria) {
   for (const auto& c : cases) {
     const PosedPair pair{
         {2, 1}, {2, 1}, c.angle1 * pi / 180, c.angle2 * pi / 180, unit(c.direction * pi / 180)};
-    EXPECT_NEAR(contact_distance_of(pair), c.distance, 1e-12) << pair;
-    EXPECT_NEAR(first_disjoint(pair, [](const PosedPair& p) { return gap_of(p).gap > 0; }),
-                c.distance, 1e-12)
-        << pair;
-    EXPECT_NEAR(first_disjoint(pair, [](const PosedPair& p) { return f_of(p).disjoint(); }),
-                c.distance, 1e-12)
-        << pair;
-    EXPECT_NEAR(first_disjoint(pair, [](const PosedPair& p) { return psi_of(p).disjoint(); }),
-                c.distance, 1e-12)
-        << pair;
+    expect_contact_at(c.distance, pair, 1e-12);
   }
 }
 
@@ -358,8 +260,8 @@ TEST(ContactDistance, NormalAndPointAtContact) {
     const PerramWertheim<2> f = f_of(pair);
     EXPECT_NEAR(f.value, 1, 1e-13) << pair;
     const Vec2 other = f.point - pair.d;
-    const Vec2 first = shape_matrix(pair.one, pair.angle1).inverse() * f.point;
-    const Vec2 second = shape_matrix(pair.two, pair.angle2).inverse() * other;
+    const Vec2 first = shape_matrix(pair.one, pair.turn1).inverse() * f.point;
+    const Vec2 second = shape_matrix(pair.two, pair.turn2).inverse() * other;
     EXPECT_NEAR(f.point.dot(first), 1, 1e-12) << pair;
     EXPECT_NEAR(other.dot(second), 1, 1e-11) << pair;
     EXPECT_LT((first.normalized() - f.normal).norm(), 1e-12) << pair;

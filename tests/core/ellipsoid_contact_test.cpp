@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "core/contact/ellipsoid_contact_screen.h"
-#include "core/contact/ellipsoid_gap.h"
 #include "core/contact/ellipsoid_gap_batch.h"
 #include "core/contact/ellipsoid_pair_in_flight.h"
 #include "core/contact/first_contact.h"
 #include "core/geometry/capsule.h"
 #include "core/geometry/free_flight.h"
 #include "core/tolerances.h"
+#include "tests/support/overlap_criteria.h"
 #include "tests/support/solids.h"
 
 namespace vitrel {
@@ -20,17 +20,15 @@ namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
-double support(const Ellipsoid& body, const Quaternion& orientation, const Vec3& n) {
-  return body.semi_axes.cwiseProduct(orientation.conjugate() * n).norm();
+double gap_along(const Vec3& n, const PosedSolids& pair) {
+  return n.dot(pair.d) - support_function(pair.one, pair.turn1, n) -
+         support_function(pair.two, pair.turn2, n);
 }
 
 // The largest gap by a search that knows nothing of derivatives: ever smaller random turns.
-double gap_by_trial(const Ellipsoid& one, const Quaternion& q1, const Ellipsoid& two,
-                    const Quaternion& q2, const Vec3& d, Stream& draw) {
-  const auto gap = [&](const Vec3& n) {
-    return n.dot(d) - support(one, q1, n) - support(two, q2, n);
-  };
-  Vec3 best = d.normalized();
+double gap_by_trial(const PosedSolids& pair, Stream& draw) {
+  const auto gap = [&](const Vec3& n) { return gap_along(n, pair); };
+  Vec3 best = pair.d.normalized();
   for (int k = 0; k < 2000; ++k)
     if (const Vec3 n = random_direction(draw); gap(n) > gap(best)) best = n;
   for (double width = 0.1; width > 1e-9; width *= 0.9)
@@ -44,21 +42,22 @@ TEST(EllipsoidGap, IsTheLargestOverAllDirections) {
   Stream draw(1, Purpose::tests);
   int disjoint = 0;
   for (int k = 0; k < 300; ++k) {
-    const Ellipsoid one = random_ellipsoid(draw, 10), two = random_ellipsoid(draw, 10);
-    const Quaternion q1 = random_orientation(draw), q2 = random_orientation(draw);
-    const Vec3 d = (one.circumradius() + two.circumradius()) * random_vector(draw, 0, 1.2);
-    const SupportGap3 found = support_gap(one, q1, two, q2, d);
-    const double sought = gap_by_trial(one, q1, two, q2, d, draw);
+    PosedSolids pair{random_ellipsoid(draw, 10), random_ellipsoid(draw, 10),
+                     random_orientation(draw), random_orientation(draw), Vec3::Zero()};
+    pair.d = pair.extent() * random_vector(draw, 0, 1.2);
+    const SupportGap3 found = gap_of(pair);
+    const double sought = gap_by_trial(pair, draw);
     EXPECT_EQ(found.gap > 0, sought > 0);
     if (!(sought > 0)) continue;
     ++disjoint;
     EXPECT_GE(found.gap, sought - 1e-13);
     EXPECT_NEAR(found.gap, sought, 1e-8);
-    EXPECT_NEAR(
-        found.normal.dot(d) - support(one, q1, found.normal) - support(two, q2, found.normal),
-        found.gap, 1e-13);
-    EXPECT_TRUE(separated(one, q1, two, q2, d, 0.5 * found.gap));
-    EXPECT_FALSE(separated(one, q1, two, q2, d, found.gap + 1e-9));
+    EXPECT_NEAR(gap_along(found.normal, pair), found.gap, 1e-13);
+    const auto separate = [&](double gap) {
+      return separated(pair.one, pair.turn1, pair.two, pair.turn2, pair.d, gap);
+    };
+    EXPECT_TRUE(separate(0.5 * found.gap));
+    EXPECT_FALSE(separate(found.gap + 1e-9));
   }
   EXPECT_GT(disjoint, 50);
 }
@@ -172,33 +171,31 @@ TYPED_TEST(EllipsoidsInFlight, RatesAreDerivatives) {
     };
     EllipsoidPairInFlight<TypeParam> pair{flight(), flight()};
     const Axis3 n = completed(components(random_direction(draw)));
-    const auto gap = [&](double time, const Tangent& step) {
-      pair.go_to(time);
-      return pair.evaluate(detail::turned(n, step)).gap;
+    const auto gap = [&](double later, double x, double y) {
+      pair.go_to(0.3 + later);
+      return pair.evaluate(detail::turned(n, Tangent(x, y))).gap;
     };
     pair.go_to(0.3);
     const auto g = pair.evaluate(n);
     const double rate = pair.gap_rate(n, g), acceleration = pair.acceleration(g);
-    const Tangent mixed = pair.slope_rate(n, g), ex(h, 0), ey(0, h), none(0, 0);
-    EXPECT_NEAR(rate, (gap(0.3 + h, none) - gap(0.3 - h, none)) / (2 * h), 1e-7);
-    EXPECT_NEAR(acceleration, -(gap(0.3 + h, none) - 2 * g.gap + gap(0.3 - h, none)) / (h * h),
-                1e-3);
-    EXPECT_NEAR(g.slope[0], (gap(0.3, ex) - gap(0.3, -ex)) / (2 * h), 1e-7);
-    EXPECT_NEAR(g.slope[1], (gap(0.3, ey) - gap(0.3, -ey)) / (2 * h), 1e-7);
-    EXPECT_NEAR(g.c11, -(gap(0.3, ex) - 2 * g.gap + gap(0.3, -ex)) / (h * h), 1e-3);
-    EXPECT_NEAR(g.c22, -(gap(0.3, ey) - 2 * g.gap + gap(0.3, -ey)) / (h * h), 1e-3);
-    EXPECT_NEAR(g.c12,
-                -(gap(0.3, ex + ey) - gap(0.3, ex - ey) - gap(0.3, ey - ex) + gap(0.3, -ex - ey)) /
-                    (4 * h * h),
-                1e-3);
-    EXPECT_NEAR(
-        mixed[0],
-        (gap(0.3 + h, ex) - gap(0.3 + h, -ex) - gap(0.3 - h, ex) + gap(0.3 - h, -ex)) / (4 * h * h),
-        1e-3);
-    EXPECT_NEAR(
-        mixed[1],
-        (gap(0.3 + h, ey) - gap(0.3 + h, -ey) - gap(0.3 - h, ey) + gap(0.3 - h, -ey)) / (4 * h * h),
-        1e-3);
+    const Tangent mixed = pair.slope_rate(n, g);
+    const auto first = [](auto&& f) { return (f(h) - f(-h)) / (2 * h); };
+    const auto second = [&](auto&& f) { return (f(h) - 2 * g.gap + f(-h)) / (h * h); };
+    const auto cross = [](auto&& f) {
+      return (f(h, h) - f(h, -h) - f(-h, h) + f(-h, -h)) / (4 * h * h);
+    };
+    const auto of_time = [&](double t) { return gap(t, 0, 0); };
+    const auto of_x = [&](double x) { return gap(0, x, 0); };
+    const auto of_y = [&](double y) { return gap(0, 0, y); };
+    EXPECT_NEAR(rate, first(of_time), 1e-7);
+    EXPECT_NEAR(acceleration, -second(of_time), 1e-3);
+    EXPECT_NEAR(g.slope[0], first(of_x), 1e-7);
+    EXPECT_NEAR(g.slope[1], first(of_y), 1e-7);
+    EXPECT_NEAR(g.c11, -second(of_x), 1e-3);
+    EXPECT_NEAR(g.c22, -second(of_y), 1e-3);
+    EXPECT_NEAR(g.c12, -cross([&](double x, double y) { return gap(0, x, y); }), 1e-3);
+    EXPECT_NEAR(mixed[0], cross([&](double t, double x) { return gap(t, x, 0); }), 1e-3);
+    EXPECT_NEAR(mixed[1], cross([&](double t, double y) { return gap(t, 0, y); }), 1e-3);
   }
 }
 
@@ -214,30 +211,26 @@ TEST(GapBatchOfEllipsoids, BoundsTheGapFromBelow) {
       const Quaternion q1 = random_orientation(draw);
       const double limit = draw.uniform(0, 0.3) * one.circumradius();
       GapBatch<Ellipsoid> batch(one, q1, limit);
-      struct Other {
-        Ellipsoid shape;
-        Quaternion q;
-        Vec3 d;
-      } others[lanes];
+      PosedSolids pairs[lanes];
       for (int count = 0; count < lanes;) {
-        Other& other = others[count];
-        other.shape = trial % 2 ? prolate(aspect) : random_ellipsoid(draw, aspect);
-        other.q = random_orientation(draw);
-        other.d = (one.circumradius() + other.shape.circumradius()) * random_vector(draw, 0.1, 1.2);
-        if (farther_apart(CapsuleOf(one).at(q1, 1), CapsuleOf(other.shape).at(other.q, 1), other.d,
+        PosedSolids& pair = pairs[count];
+        pair.one = one;
+        pair.turn1 = q1;
+        pair.two = trial % 2 ? prolate(aspect) : random_ellipsoid(draw, aspect);
+        pair.turn2 = random_orientation(draw);
+        pair.d = pair.extent() * random_vector(draw, 0.1, 1.2);
+        if (farther_apart(CapsuleOf(one).at(q1, 1), CapsuleOf(pair.two).at(pair.turn2, 1), pair.d,
                           limit)) {
           ++far;
-          EXPECT_GT(support_gap(one, q1, other.shape, other.q, other.d).gap, limit);
+          EXPECT_GT(gap_of(pair).gap, limit);
         } else {
-          batch.set(count++, other.shape, other.q, other.d);
+          batch.set(count++, pair.two, pair.turn2, pair.d);
         }
       }
       batch.evaluate();
       for (int k = 0; k < lanes; ++k) {
-        const auto& [shape, q, d] = others[k];
-        const double best = support_gap(one, q1, shape, q, d).gap;
-        const Vec3 n = batch.axis(k);
-        EXPECT_NEAR(batch.gap(k), n.dot(d) - support(one, q1, n) - support(shape, q, n), 1e-13);
+        const double best = gap_of(pairs[k]).gap;
+        EXPECT_NEAR(batch.gap(k), gap_along(batch.axis(k), pairs[k]), 1e-13);
         EXPECT_LE(batch.gap(k), std::max(best, 0.0) + 1e-13);
         if (!(best > 0 && best < limit)) continue;
         ++disjoint;

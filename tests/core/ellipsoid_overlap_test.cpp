@@ -1,22 +1,18 @@
-#include <gtest/gtest.h>
-
+// Three criteria of overlap of ellipsoids agree with one another and with closed forms.
 #include <gsl/gsl_poly.h>
+#include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <string>
 
-#include "core/contact/ellipsoid_eta.h"
-#include "core/contact/ellipsoid_gap.h"
-#include "core/contact/perram_wertheim.h"
 #include "core/geometry/free_flight.h"
-#include "tests/support/posed_solids.h"
+#include "tests/support/overlap_criteria.h"
 #include "tests/support/solids.h"
 
 namespace vitrel {
@@ -24,16 +20,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-EllipsoidEta<double> eta_of(const PosedSolids& p) {
-  return ellipsoid_eta(p.one, p.turn1, p.two, p.turn2, p.d);
-}
-PerramWertheim<3> f_of(const PosedSolids& p) {
-  return perram_wertheim(p.one, p.turn1, p.two, p.turn2, p.d);
-}
-SupportGap3 gap_of(const PosedSolids& p) {
-  return support_gap(p.one, p.turn1, p.two, p.turn2, p.d);
-}
 
 // The roots of Σ cₖ xᵏ.
 std::array<std::complex<double>, 4> roots(const std::array<double, 5>& coefficients) {
@@ -48,18 +34,6 @@ std::array<std::complex<double>, 4> roots(const std::array<double, 5>& coefficie
   return result;
 }
 
-double contact_distance_of(const PosedSolids& p) {
-  return contact_distance(p.one, p.turn1, p.two, p.turn2, p.d);
-}
-
-double support(const Ellipsoid& body, const Quaternion& turn, const Vec3& n) {
-  return body.semi_axes.cwiseProduct(turn.conjugate() * n).norm();
-}
-
-double log_uniform(Stream& draw, double low, double high) {
-  return low * std::exp(draw.uniform() * std::log(high / low));
-}
-
 /// Three semi-axes in ratios up to `aspect`, sizes in a ratio up to `size` either way round.
 PosedSolids random_bodies(Stream& draw, double aspect, double size) {
   const double ratio = log_uniform(draw, 1, size);
@@ -69,21 +43,16 @@ PosedSolids random_bodies(Stream& draw, double aspect, double size) {
   return {large, small, random_orientation(draw), random_orientation(draw), Vec3::Zero()};
 }
 
-/// The bodies, a third each: anywhere within the circumspheres, around the contact distance, and at the
-/// contact distance times 1 ± 10⁻¹ … 10⁻¹⁵.
-enum class Placement { anywhere, around_contact, near_contact };
-
 PosedSolids placed(const PosedSolids& pair, Placement placement, Stream& draw) {
   const Vec3 e = random_direction(draw);
-  if (placement == Placement::anywhere) return pair.with(draw.uniform() * pair.extent() * e);
-  const double contact = contact_distance_of(pair.with(e));
-  if (placement == Placement::around_contact) return pair.with(draw.uniform(0, 2) * contact * e);
-  const double offset = std::pow(10, -draw.uniform(1, 15));
-  return pair.with(contact * (draw.uniform() < 0.5 ? 1 + offset : 1 - offset) * e);
+  return placed(pair, placement, e, draw);
 }
 
-Placement random_placement(Stream& draw) {
-  return static_cast<Placement>(draw.below(3));
+/// Gives each placement to a third of the pairs.
+PosedSolids random_pair(Stream& draw) {
+  const PosedSolids bodies = random_bodies(draw, 100, 1000);
+  const Placement placement = random_placement(draw);
+  return placed(bodies, placement, draw);
 }
 
 /// The article's table 1, for η₁ ≠ 0.
@@ -91,30 +60,11 @@ bool separate_by_the_article(const EllipsoidEta<double>& eta) {
   return eta.eta1 > 0 && eta.eta2 > 0 && eta.eta5 > 0;
 }
 
-/// The distance of the surfaces to first order in it.
-double distance_by(const PerramWertheim<3>& f, const PosedSolids& pair) {
-  return (std::sqrt(f.value) - 1) *
-         (support(pair.one, pair.turn1, f.normal) + support(pair.two, pair.turn2, f.normal));
-}
-
-/// Whether the support gap proves that the surfaces are closer than `margin`: as a distance if they are
-/// disjoint; if they overlap, by the proof that a shift by `margin` along the normal separates them.
-bool closer_than(double margin, const PosedSolids& pair, const Vec3& normal) {
-  const double gap = gap_of(pair).gap;
-  return gap > 0 ? gap < margin : gap_of(pair.with(pair.d + margin * normal)).gap > 0;
-}
-
-std::uint64_t pairs_to_compare() {
-  const char* given = std::getenv("VITREL_CONTACT_PAIRS");
-  return given ? std::stoull(given) : 100'000;
-}
-
-// The number of pairs can be raised by the environment variable VITREL_CONTACT_PAIRS. Verdicts may differ
-// only if the surfaces are closer than 20 ε (a₁ + a₂), both by the support gap and by Perram and
-// Wertheim's function.
+// Verdicts may differ only if the surfaces are closer than 20 ε (a₁ + a₂), both by the support gap
+// and by Perram and Wertheim's function.
 TEST(EllipsoidCriteria, ThreeCriteriaAgreeOnRandomPairs) {
   Stream draw(1, Purpose::tests);
-  const std::uint64_t pairs = pairs_to_compare();
+  const std::uint64_t pairs = pairs_to_compare(100'000);
   std::uint64_t overlapping = 0, close = 0, blurred = 0, decided = 0;
   std::uint64_t random_overlaps = 0, overlooked = 0;
   double largest_blurred = 0;
@@ -159,12 +109,8 @@ TEST(EllipsoidCriteria, OrdinaryPairsAgreeDownToRounding) {
     const PosedSolids pair = random_bodies(draw, 6, 1);
     const double contact = contact_distance_of(pair.with(e));
     const double offset = std::pow(10, -draw.uniform(1, 13));
-    for (const double sign : {-1, 1}) {
-      const PosedSolids moved = pair.with(contact * (1 + sign * offset) * e);
-      EXPECT_EQ(gap_of(moved).gap > 0, sign > 0) << moved;
-      EXPECT_EQ(f_of(moved).disjoint(), sign > 0) << moved;
-      EXPECT_EQ(eta_of(moved).disjoint(), sign > 0) << moved;
-    }
+    for (const double sign : {-1, 1})
+      expect_verdict(pair.with(contact * (1 + sign * offset) * e), sign > 0);
   }
 }
 
@@ -274,9 +220,7 @@ TEST(EllipsoidEta, PolynomialAndEtaByTheirDefinitions) {
 TEST(EllipsoidCriteria, ExchangingTheBodiesChangesNothing) {
   Stream draw(6, Purpose::tests);
   for (int k = 0; k < 20'000; ++k) {
-    const PosedSolids bodies = random_bodies(draw, 100, 1000);
-    const Placement placement = random_placement(draw);
-    const PosedSolids pair = placed(bodies, placement, draw);
+    const PosedSolids pair = random_pair(draw);
     const EllipsoidEta<double> eta = eta_of(pair), swapped = eta_of(pair.swapped());
     EXPECT_NEAR(eta.p1, swapped.p3, 1e-11 * (1 + std::abs(eta.p1))) << pair;
     EXPECT_NEAR(eta.p3, swapped.p1, 1e-11 * (1 + std::abs(eta.p3))) << pair;
@@ -339,6 +283,7 @@ TEST(EllipsoidEta, VanishesForSpheresAndParallelBodiesAndIsNotAsked) {
          return p.d.norm() / (p.one.semi_axes[0] + p.two.semi_axes[0]);
        }}};
   for (const VanishingCase& c : cases) {
+    SCOPED_TRACE(c.name);
     Stream draw(7, Purpose::tests);
     for (int k = 0; k < 3000; ++k) {
       const PosedSolids pair = c.draw(draw);
@@ -346,11 +291,8 @@ TEST(EllipsoidEta, VanishesForSpheresAndParallelBodiesAndIsNotAsked) {
       const double offset = std::pow(10, -draw.uniform(0, 13));
       for (const double factor : {1 - offset, 1 + offset}) {
         const PosedSolids placed = pair.with(factor * contact * pair.d);
-        const EllipsoidEta<double> eta = eta_of(placed);
-        EXPECT_FALSE(eta.decides()) << c.name << ": " << placed;
-        EXPECT_EQ(eta.disjoint(), factor > 1) << c.name << ": " << placed;
-        EXPECT_EQ(f_of(placed).disjoint(), factor > 1) << c.name << ": " << placed;
-        EXPECT_EQ(gap_of(placed).gap > 0, factor > 1) << c.name << ": " << placed;
+        EXPECT_FALSE(eta_of(placed).decides()) << placed;
+        expect_verdict(placed, factor > 1);
       }
     }
   }
@@ -411,25 +353,14 @@ TEST(EllipsoidEta, TouchingIsNeitherApartNorAnOverlap) {
   }
 }
 
-/// Bodies that touch at `point` with the normal n.
-struct Touching {
-  PosedSolids pair;
-  Vec3 normal, point;
-};
-
-Touching random_touching(Stream& draw, double aspect, double size) {
-  PosedSolids pair = random_bodies(draw, aspect, size);
-  const Vec3 n = random_direction(draw);
-  const Vec3 point = surface_point(pair.one, pair.turn1, n);
-  pair.d = point + surface_point(pair.two, pair.turn2, n);
-  return {pair, n, point};
-}
-
 // From the corrected equation 14 and from F; the residue of the equation itself, with its plus sign.
 TEST(EllipsoidTouch, PointAndNormalOfTouchingBodies) {
   Stream draw(10, Purpose::tests);
   for (int k = 0; k < 3000; ++k) {
-    const auto [pair, normal, point] = random_touching(draw, 5, 4);
+    PosedSolids pair = random_bodies(draw, 5, 4);
+    const Vec3 normal = random_direction(draw);
+    const Vec3 point = surface_point(pair.one, pair.turn1, normal);
+    pair.d = point + surface_point(pair.two, pair.turn2, normal);
     const EllipsoidAxes<double> one(pair.one, pair.turn1), two(pair.two, pair.turn2);
     const EllipsoidTouch<double> touch = ellipsoid_touch<double>(one, two, pair.d);
     EXPECT_LT((touch.point - point).norm(), 1e-10 * pair.extent()) << pair;
@@ -439,8 +370,8 @@ TEST(EllipsoidTouch, PointAndNormalOfTouchingBodies) {
     EXPECT_LT((f.point - point).norm(), 1e-11 * pair.extent()) << pair;
     EXPECT_LT((f.normal - normal).norm(), 1e-11) << pair;
 
-    const double lambda =
-        support(pair.one, pair.turn1, normal) / support(pair.two, pair.turn2, normal);
+    const double lambda = support_function(pair.one, pair.turn1, normal) /
+                          support_function(pair.two, pair.turn2, normal);
     EXPECT_NEAR(f.lambda, lambda / (1 + lambda), 1e-12) << pair;
     const Eigen::Matrix4d a1 = quadric(pair.one, pair.turn1, Vec3::Zero());
     const Eigen::Matrix4d a2 = quadric(pair.two, pair.turn2, pair.d);
@@ -451,85 +382,44 @@ TEST(EllipsoidTouch, PointAndNormalOfTouchingBodies) {
   }
 }
 
-// Scaled by μ = √F about their centres the bodies touch, at `point` along `normal`.
 TEST(EllipsoidPerramWertheim, NormalAndPointBelongToBothScaledBodies) {
   Stream draw(11, Purpose::tests);
   for (int k = 0; k < 20'000; ++k) {
-    const PosedSolids bodies = random_bodies(draw, 100, 1000);
-    const Placement placement = random_placement(draw);
-    const PosedSolids pair = placed(bodies, placement, draw);
+    const PosedSolids pair = random_pair(draw);
     if (pair.d.norm() < 1e-3) continue;
-    const PerramWertheim<3> f = f_of(pair);
-    const double mu = std::sqrt(f.value);
-    EXPECT_NEAR(f.normal.norm(), 1, 1e-14);
-    EXPECT_LT((f.point - mu * surface_point(pair.one, pair.turn1, f.normal)).norm(),
-              1e-13 * mu * pair.extent())
-        << pair;
-    EXPECT_LT((f.point - pair.d + mu * surface_point(pair.two, pair.turn2, f.normal)).norm(),
-              1e-10 * mu * pair.extent())
-        << pair;
+    expect_touch_of_scaled_bodies(pair, 1e-13 * pair.extent(), 1e-10 * pair.extent());
   }
 }
 
-// F(λ) by the definition, with the matrices and 100 steps of golden section.
 TEST(EllipsoidPerramWertheim, ValueIsTheMaximumOfTheDefinition) {
   Stream draw(12, Purpose::tests);
   for (int k = 0; k < 1000; ++k) {
     const PosedSolids bodies = random_bodies(draw, 10, 5);
     const PosedSolids pair = placed(bodies, Placement::around_contact, draw);
-    const Mat3 sigma1 = shape_matrix(pair.one, pair.turn1);
-    const Mat3 sigma2 = shape_matrix(pair.two, pair.turn2);
-    const auto f = [&](double x) {
-      return x * (1 - x) * pair.d.dot(((1 - x) * sigma1 + x * sigma2).inverse() * pair.d);
-    };
-    double low = 0, high = 1;
-    const double golden = (std::sqrt(5) - 1) / 2;
-    for (int step = 0; step < 100; ++step) {
-      const double left = high - golden * (high - low), right = low + golden * (high - low);
-      f(left) < f(right) ? low = left : high = right;
-    }
     const PerramWertheim<3> found = f_of(pair);
-    EXPECT_NEAR(found.value, f(low), 1e-11 * found.value) << pair;
-    EXPECT_NEAR(found.lambda, low, 1e-5) << pair;
+    const double best = lambda_by_golden_section(pair);
+    EXPECT_NEAR(found.value, f_by_definition(pair, best), 1e-11 * found.value) << pair;
+    EXPECT_NEAR(found.lambda, best, 1e-5) << pair;
   }
 }
 
 TEST(EllipsoidPerramWertheim, ScalesWithTheSquareOfTheSeparation) {
   Stream draw(13, Purpose::tests);
-  const PosedSolids pair = random_bodies(draw, 5, 2).with({1.5, -2.5, 0.5});
-  const double value = f_of(pair).value;
-  for (const double factor : {1e-150, 1e-8, 0.5, 3.0, 1e8})
-    EXPECT_NEAR(f_of(pair.with(factor * pair.d)).value / (factor * factor * value), 1, 1e-13);
-}
-
-/// Where `disjoint` turns from false to true along d, by bisection.
-template <class Disjoint>
-double first_disjoint(const PosedSolids& pair, Disjoint&& disjoint) {
-  double low = 0, high = pair.extent() / pair.d.norm() + 1;
-  for (int step = 0; step < 80; ++step) {
-    const double middle = 0.5 * (low + high);
-    (disjoint(pair.with(middle * pair.d)) ? high : low) = middle;
-  }
-  return high;
-}
-
-void expect_contact_at(double distance, const PosedSolids& pair) {
-  EXPECT_NEAR(contact_distance_of(pair), distance, 1e-13 * distance) << pair;
-  const double by_gap = first_disjoint(pair, [](const auto& p) { return gap_of(p).gap > 0; });
-  const double by_eta = first_disjoint(pair, [](const auto& p) { return eta_of(p).disjoint(); });
-  EXPECT_NEAR(by_gap * pair.d.norm(), distance, 1e-13 * distance) << pair;
-  EXPECT_NEAR(by_eta * pair.d.norm(), distance, 1e-13 * distance) << pair;
+  expect_f_scales_with_the_square_of(random_bodies(draw, 5, 2).with({1.5, -2.5, 0.5}));
 }
 
 // Spheres; bodies whose axes are along the line of centres, whatever the rest of them does; parallel
 // congruent ones, 2/√(eᵀAe).
 TEST(EllipsoidContactDistance, ClosedFormsByAllThreeCriteria) {
   Stream draw(14, Purpose::tests);
+  const auto expect_contact = [](double distance, const PosedSolids& pair) {
+    expect_contact_at(distance, pair, 1e-13 * distance);
+  };
   for (int k = 0; k < 100; ++k) {
     const Vec3 e = random_direction(draw);
     const double r1 = log_uniform(draw, 0.1, 10), r2 = log_uniform(draw, 0.1, 10);
     const Quaternion turn1 = random_orientation(draw), turn2 = random_orientation(draw);
-    expect_contact_at(r1 + r2, {{Vec3::Constant(r1)}, {Vec3::Constant(r2)}, turn1, turn2, e});
+    expect_contact(r1 + r2, {{Vec3::Constant(r1)}, {Vec3::Constant(r2)}, turn1, turn2, e});
 
     const Ellipsoid one = random_ellipsoid(draw, 20), two = random_ellipsoid(draw, 20);
     const int axis1 = static_cast<int>(draw.below(3)), axis2 = static_cast<int>(draw.below(3));
@@ -537,11 +427,11 @@ TEST(EllipsoidContactDistance, ClosedFormsByAllThreeCriteria) {
       return Quaternion(Eigen::AngleAxisd(draw.uniform(-pi, pi), e)) *
              Quaternion::FromTwoVectors(Vec3::Unit(axis), e);
     };
-    expect_contact_at(one.semi_axes[axis1] + two.semi_axes[axis2],
-                      {one, two, along(axis1), along(axis2), e});
+    expect_contact(one.semi_axes[axis1] + two.semi_axes[axis2],
+                   {one, two, along(axis1), along(axis2), e});
 
     const PosedSolids parallel{one, one, turn1, turn1, e};
-    expect_contact_at(2 / in_units_of_the_first(parallel), parallel);
+    expect_contact(2 / in_units_of_the_first(parallel), parallel);
   }
 }
 

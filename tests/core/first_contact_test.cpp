@@ -27,46 +27,45 @@ double gap_at(const Flight<Ellipse>& one, const Flight<Ellipse>& two, double tim
   return support_gap(one.body, p1.angle, two.body, p2.angle, p2.position - p1.position).gap;
 }
 
+const Flight<Ellipse> spinning_one{{2, 1}, {{0, 0}, 0.3}, {{0.2, -0.1}, 1.5}};
+const Flight<Ellipse> spinning_two{{2, 1}, {{3, 2.5}, -0.4}, {{-0.5, -0.6}, -0.8}};
+
+void expect_contact(const Prediction2& touch, double time, double tolerance) {
+  ASSERT_EQ(touch.outcome, Outcome::contact);
+  EXPECT_NEAR(touch.time, time, tolerance);
+}
+void expect_contact(const Prediction2& touch, double time, const Vec2& normal, const Vec2& point) {
+  expect_contact(touch, time, 1e-12);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_NEAR(touch.normal[k], normal[k], 1e-12);
+    EXPECT_NEAR(touch.point[k], point[k], 1e-12);
+  }
+}
+
 // Reference values in extended precision; a sign change of the contact function.
 TEST(FirstContact, TwoBodyCollisionOfOneMovingEllipse) {
   const Flight<Ellipse> one{{2, 1}, {{0, 0}, 0}, {{0, 0}, 0}};
   const Flight<Ellipse> two{{2, 1}, {{6, 0.5}, pi / 2}, {{-1, 0}, 0.7}};
-  const Prediction2 touch = predict(one, two);
-  ASSERT_EQ(touch.outcome, Outcome::contact);
-  EXPECT_NEAR(touch.time, 2.170137851790125, 1e-12);
-  EXPECT_NEAR(touch.normal.x(), 0.860699250292, 1e-12);
-  EXPECT_NEAR(touch.normal.y(), 0.509113740284, 1e-12);
-  EXPECT_NEAR(touch.point.x(), 1.917878297555, 1e-12);
-  EXPECT_NEAR(touch.point.y(), 0.283611898450, 1e-12);
+  expect_contact(predict(one, two), 2.170137851790125, {0.860699250292, 0.509113740284},
+                 {1.917878297555, 0.283611898450});
 }
 
 TEST(FirstContact, TwoBodyCollisionOfTwoSpinningEllipses) {
-  const Flight<Ellipse> one{{2, 1}, {{0, 0}, 0.3}, {{0.2, -0.1}, 1.5}};
-  const Flight<Ellipse> two{{2, 1}, {{3, 2.5}, -0.4}, {{-0.5, -0.6}, -0.8}};
-  const Prediction2 touch = predict(one, two);
-  ASSERT_EQ(touch.outcome, Outcome::contact);
-  EXPECT_NEAR(touch.time, 1.495639195538086, 1e-12);
+  expect_contact(predict(spinning_one, spinning_two), 1.495639195538086, 1e-12);
 }
 
 // Touches at 0.0847 and, from inside the overlap, again at 1: local optimisers find the second.
 TEST(FirstContact, SceneOfAppendixB1) {
   const Flight<Ellipse> one{{1, 0.5}, {{0, 0}, 0}, {{0, 0}, 0}};
   const Flight<Ellipse> two{{1, 0.5}, {{1, 1}, 0}, {{-1, 0}, pi}};
-  const Prediction2 touch = predict(one, two);
-  ASSERT_EQ(touch.outcome, Outcome::contact);
-  EXPECT_NEAR(touch.time, 0.08472238582199765, 1e-12);
-  EXPECT_NEAR(touch.point.x(), 0.3428630757205, 1e-12);
-  EXPECT_NEAR(touch.point.y(), 0.4696926950964, 1e-12);
-  EXPECT_NEAR(touch.normal.x(), 0.179528294643, 1e-12);
-  EXPECT_NEAR(touch.normal.y(), 0.983752810122, 1e-12);
+  expect_contact(predict(one, two), 0.08472238582199765, {0.179528294643, 0.983752810122},
+                 {0.3428630757205, 0.4696926950964});
 }
 
 TEST(FirstContact, DisksMeetWhereTheClosedFormSays) {
   const Flight<Disk> one{{1}, {{0, 0}, 0}, {{0.5, 0}, 0}};
   const Flight<Disk> two{{2}, {{7, 1}, 0}, {{-1.5, 0}, 0}};
-  const Prediction2 touch = first_contact(one, two, forever, 0);
-  ASSERT_EQ(touch.outcome, Outcome::contact);
-  EXPECT_NEAR(touch.time, (7 - std::sqrt(8.0)) / 2, 1e-14);
+  expect_contact(first_contact(one, two, forever, 0), (7 - std::sqrt(8.0)) / 2, 1e-14);
   EXPECT_EQ(first_contact(one, two, 1.0, 0).outcome, Outcome::none);
 }
 
@@ -153,14 +152,10 @@ TEST(PairInFlight, RatesAreDerivatives) {
 TEST(FirstContact, GrowingDisksAndPointsInClosedForm) {
   const Flight<GrowingEllipse> one{{{1, 1}, 0, 0.5}, {{0, 0}, 0}, {{0.5, 0}, 0}};
   const Flight<GrowingEllipse> two{{{2, 2}, 0, 0.25}, {{7, 0}, 0}, {{0, 0}, 0}};
-  const Prediction2 touch = first_contact(one, two, forever, 1e-14);
-  ASSERT_EQ(touch.outcome, Outcome::contact);
-  EXPECT_NEAR(touch.time, 7 / 1.5, 1e-13);
+  expect_contact(first_contact(one, two, forever, 1e-14), 7 / 1.5, 1e-13);
   // Receding more slowly than they grow.
   const Flight<GrowingEllipse> receding{two.body, two.pose, {{1, 0}, 0}};
-  const Prediction2 later = first_contact(one, receding, forever, 1e-14);
-  ASSERT_EQ(later.outcome, Outcome::contact);
-  EXPECT_NEAR(later.time, 7 / 0.5, 1e-13);
+  expect_contact(first_contact(one, receding, forever, 1e-14), 7 / 0.5, 1e-13);
   const Flight<GrowingEllipse> faster{two.body, two.pose, {{2, 0}, 0}};
   EXPECT_EQ(first_contact(one, faster, forever, 1e-14).outcome, Outcome::none);
 }
@@ -170,23 +165,21 @@ TEST(FirstContact, EllipsesGrowingFromPointsInClosedForm) {
   const Flight<GrowingEllipse> one{{{2, 1}, 0, 1}, {{0, 0}, 0}, {{0, 0}, 0}};
   const Flight<GrowingEllipse> two{{{2, 1}, 0, 1}, {{6, 0}, pi / 2}, {{-1, 0}, 0}};
   const Prediction2 touch = first_contact(one, two, 10, tolerance::contact_gap(4));
-  ASSERT_EQ(touch.outcome, Outcome::contact);
-  EXPECT_NEAR(touch.time, 1.5, 1e-13);
+  expect_contact(touch, 1.5, 1e-13);
   EXPECT_NEAR(touch.point.x(), 3, 1e-12);
   EXPECT_NEAR(touch.normal.x(), 1, 1e-12);
 }
 
 // Without growth the general model gives the same answer to the last bit.
 TEST(FirstContact, EllipsesThatDoNotGrowAreEllipses) {
-  const Flight<Ellipse> one{{2, 1}, {{0, 0}, 0.3}, {{0.2, -0.1}, 1.5}};
-  const Flight<Ellipse> two{{2, 1}, {{3, 2.5}, -0.4}, {{-0.5, -0.6}, -0.8}};
-  const Prediction2 still = predict(one, two);
-  const Prediction2 growing =
-      first_contact(Flight<GrowingEllipse>{{one.body, 1, 0}, one.pose, one.motion},
-                    Flight<GrowingEllipse>{{two.body, 1, 0}, two.pose, two.motion}, forever,
-                    tolerance::contact_gap(4));
-  EXPECT_EQ(still.time, growing.time);
-  EXPECT_EQ(still.normal, growing.normal);
+  const auto growing = [](const Flight<Ellipse>& flight) {
+    return Flight<GrowingEllipse>{{flight.body, 1, 0}, flight.pose, flight.motion};
+  };
+  const Prediction2 still = predict(spinning_one, spinning_two);
+  const Prediction2 touch = first_contact(growing(spinning_one), growing(spinning_two), forever,
+                                          tolerance::contact_gap(4));
+  EXPECT_EQ(still.time, touch.time);
+  EXPECT_EQ(still.normal, touch.normal);
 }
 
 struct Flights {

@@ -8,23 +8,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <vector>
 
-#include "core/contact/ellipse_gap.h"
 #include "core/random/stream.h"
+#include "core/special_values.h"
+#include "tests/support/overlap_criteria.h"
 
 namespace vitrel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-struct Other {
-  Ellipse shape;
-  double angle;
-  Vec2 d;
-};
 
 Ellipse random_ellipse(Stream& draw, double largest_aspect_ratio) {
   const double b = draw.uniform(0.3, 1.5);
@@ -32,15 +25,16 @@ Ellipse random_ellipse(Stream& draw, double largest_aspect_ratio) {
 }
 
 /// n·d − h₁ − h₂ with h = √(b² + (a² − b²)(u·n)²), in extended precision for the axis as it is.
-double gap_along(const Ellipse& one, double angle1, const Other& other, const Vec2& n) {
+double gap_along(const PosedPair& pair, const Vec2& n) {
   using Real = long double;
   const auto height = [&](const Ellipse& shape, double angle) {
     const Real along = std::cos(Real(angle)) * n.x() + std::sin(Real(angle)) * n.y();
     const Real bb = Real(shape.b) * shape.b;
     return std::sqrt(bb + (Real(shape.a) * shape.a - bb) * along * along);
   };
-  const Real projected = Real(n.x()) * other.d.x() + Real(n.y()) * other.d.y();
-  return static_cast<double>(projected - height(one, angle1) - height(other.shape, other.angle));
+  const Real projected = Real(n.x()) * pair.d.x() + Real(n.y()) * pair.d.y();
+  return static_cast<double>(projected - height(pair.one, pair.turn1) -
+                             height(pair.two, pair.turn2));
 }
 
 struct Class {
@@ -64,24 +58,24 @@ TEST_P(GapBatchOfEllipses, IsALowerBoundAndSeldomALooseOne) {
   for (int trial = 0; trial < 5'000; ++trial) {
     const Ellipse one = random_ellipse(draw, at.largest_aspect_ratio);
     const double angle = draw.uniform(-20, 20);
-    GapBatch<Ellipse> batch(one, angle, std::numeric_limits<double>::infinity());
-    std::array<Other, GapBatch<Ellipse>::lanes> others;
+    GapBatch<Ellipse> batch(one, angle, infinity);
+    std::array<PosedPair, GapBatch<Ellipse>::lanes> pairs;
     for (int k = 0; k < GapBatch<Ellipse>::lanes; ++k) {
       const Ellipse shape = random_ellipse(draw, at.largest_aspect_ratio);
       const double distance = draw.uniform(at.nearest, at.farthest) * (one.a + shape.a);
-      others[k] = {shape, draw.uniform(-20, 20), distance * direction(draw.uniform(0, 2 * pi))};
-      batch.set(k, others[k].shape, others[k].angle, others[k].d);
+      pairs[k] = {one, shape, angle, draw.uniform(-20, 20),
+                  distance * direction(draw.uniform(0, 2 * pi))};
+      batch.set(k, shape, pairs[k].turn2, pairs[k].d);
     }
     batch.evaluate();
     for (int k = 0; k < GapBatch<Ellipse>::lanes; ++k) {
-      const Other& other = others[k];
-      const SupportGap best = support_gap(one, angle, other.shape, other.angle, other.d);
-      const double rounding = 1e-14 * (one.a + other.shape.a + other.d.norm());
+      const double best = gap_of(pairs[k]).gap;
+      const double rounding = 1e-14 * (pairs[k].extent() + pairs[k].d.norm());
       EXPECT_NEAR(batch.axis(k).norm(), 1, 1e-15);
-      EXPECT_NEAR(batch.gap(k), gap_along(one, angle, other, batch.axis(k)), rounding);
-      (best.gap > 0 ? disjoint : overlapping) += 1;
-      EXPECT_LE(batch.gap(k), std::max(best.gap, 0.0) + rounding);
-      loose += best.gap > 0 && batch.gap(k) < 0.95 * best.gap - 1e-3 * (one.b + other.shape.b);
+      EXPECT_NEAR(batch.gap(k), gap_along(pairs[k], batch.axis(k)), rounding);
+      (best > 0 ? disjoint : overlapping) += 1;
+      EXPECT_LE(batch.gap(k), std::max(best, 0.0) + rounding);
+      loose += best > 0 && batch.gap(k) < 0.95 * best - 1e-3 * (one.b + pairs[k].two.b);
     }
   }
   RecordProperty("loose", loose);
@@ -96,19 +90,18 @@ INSTANTIATE_TEST_SUITE_P(Classes, GapBatchOfEllipses,
 
 // Two neighbourhoods may have one centre; there is no direction from one to the other then.
 TEST(GapBatchOfEllipses, IsALowerBoundWhereTheCentresCoincide) {
-  constexpr double none = std::numeric_limits<double>::infinity();
   Stream draw(53, Purpose::tests);
   const Ellipse one = random_ellipse(draw, 6);
-  GapBatch<Ellipse> batch(one, 0.3, none);
-  std::vector<Other> others;
+  GapBatch<Ellipse> batch(one, 0.3, infinity);
+  std::array<PosedPair, GapBatch<Ellipse>::lanes> pairs;
   for (int k = 0; k < GapBatch<Ellipse>::lanes; ++k) {
-    others.push_back({random_ellipse(draw, 6), draw.uniform(-9, 9), Vec2::Zero()});
-    batch.set(k, others[k].shape, others[k].angle, others[k].d);
+    pairs[k] = {one, random_ellipse(draw, 6), 0.3, draw.uniform(-9, 9), Vec2::Zero()};
+    batch.set(k, pairs[k].two, pairs[k].turn2, pairs[k].d);
   }
   batch.evaluate();
   for (int k = 0; k < GapBatch<Ellipse>::lanes; ++k) {
     EXPECT_NEAR(batch.axis(k).norm(), 1, 1e-15);
-    EXPECT_NEAR(batch.gap(k), gap_along(one, 0.3, others[k], batch.axis(k)), 1e-14);
+    EXPECT_NEAR(batch.gap(k), gap_along(pairs[k], batch.axis(k)), 1e-14);
   }
 }
 
@@ -132,7 +125,7 @@ TEST(GapBatchOfDisks, IsTheDistance) {
   Stream draw(52, Purpose::tests);
   for (int trial = 0; trial < 1'000; ++trial) {
     const Disk one{draw.uniform(0.5, 2)};
-    GapBatch<Disk> batch(one, draw.uniform(0, 7), std::numeric_limits<double>::infinity());
+    GapBatch<Disk> batch(one, draw.uniform(0, 7), infinity);
     double wanted[lanes];
     for (int k = 0; k < lanes; ++k) {
       const Disk other{draw.uniform(0.1, 3)};

@@ -20,6 +20,8 @@
 #include "core/io/checkpoint.h"
 #include "core/io/h5md.h"
 #include "core/io/transactional_file.h"
+#include "tests/support/files.h"
+#include "tests/support/stored_frames.h"
 
 /// Every system call that changes a file is counted; at a chosen one the process ends at once, as if
 /// killed, or the disk is full from then on. At two of them it stops until it is told to go on.
@@ -77,20 +79,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Interrupted : public testing::Test {
+class Interrupted : public Files {
  protected:
   Interrupted() {
-    std::string pattern = (fs::temp_directory_path() / "vitrel_interrupted_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
     void* shared =
         mmap(nullptr, sizeof(long), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     completed_ = static_cast<long*>(shared);
   }
-  ~Interrupted() override {
-    static_cast<void>(munmap(completed_, sizeof(long)));
-    fs::remove_all(folder_);
-  }
-  fs::path file(const std::string& name) const { return folder_ / name; }
+  ~Interrupted() override { static_cast<void>(munmap(completed_, sizeof(long))); }
 
   /// Runs `work` in a process of its own in which `kind` strikes at the given call. True if the
   /// process ended by the fault; a process that was not killed must end in order and in silence.
@@ -118,7 +114,6 @@ class Interrupted : public testing::Test {
     return WEXITSTATUS(status) == 9;
   }
 
-  fs::path folder_;
   long* completed_;  ///< counted by the child, read by the parent
 };
 
@@ -144,7 +139,7 @@ void expect_frame(const TrajectoryReader& reader, std::uint64_t k) {
 }
 
 /// The frames that matter: the first, and those around the interruption.
-void expect_frames(const fs::path& path, std::uint64_t frames, std::uint64_t from) {
+void expect_frames_from(const fs::path& path, std::uint64_t frames, std::uint64_t from) {
   const TrajectoryReader reader(path);
   ASSERT_EQ(reader.frames(), frames);
   expect_frame(reader, 0);
@@ -160,9 +155,27 @@ class InterruptedTrajectory : public Interrupted {
     auto writer = TrajectoryWriter::create(file("start.h5"), frame(0), Provenance());
     for (std::uint64_t k = 0; k < first + 2; ++k) writer.write(frame(k), k);
   }
-  /// Drops two frames, then adds some.
-  void continue_run() {
-    auto writer = TrajectoryWriter::append_to(file("run.h5"), first);
+  /// Strikes at each single write of a run that drops two frames, then adds some. No frame that was
+  /// complete is lost, no other frame appears, and the file can be read at once; `examine` gets the
+  /// number of its frames.
+  template <class Examine>
+  void strike_at_every_write(Fault kind, Examine&& examine) {
+    long call = 0;
+    for (;; ++call) {
+      start_again();
+      if (!struck(kind, call, [&] { drop_and_add_frames(); })) break;
+      const std::uint64_t found = TrajectoryReader(run_).frames();
+      if (*completed_ == 0 && found == first + 2) continue;  // before the two frames were dropped
+      EXPECT_GE(found, first + *completed_) << "call " << call;
+      EXPECT_LE(found, first + *completed_ + 1) << "call " << call;
+      expect_frames_from(run_, found, first - 1);  // as the reader sees it, with the journal
+      examine(found);
+      if (HasFailure()) return;
+    }
+    EXPECT_GT(call, 50);
+  }
+  void drop_and_add_frames() {
+    auto writer = TrajectoryWriter::append_to(run_, first);
     for (std::uint64_t k = first; k < first + frames; ++k) {
       writer.write(frame(k), k);
       writer.commit();
@@ -171,44 +184,23 @@ class InterruptedTrajectory : public Interrupted {
     writer.close();
   }
   void start_again() {
-    fs::copy_file(file("start.h5"), file("run.h5"), fs::copy_options::overwrite_existing);
+    fs::copy_file(file("start.h5"), run_, fs::copy_options::overwrite_existing);
   }
+
+  const fs::path run_ = file("run.h5");
 };
 
-// Killed at each single write: no frame that was complete is lost, no other frame appears, and the file
-// can be read at once and continued.
 TEST_F(InterruptedTrajectory, KilledAtEveryWrite) {
-  long call = 0;
-  for (;; ++call) {
-    start_again();
-    if (!struck(Fault::kill, call, [&] { continue_run(); })) break;
-    const std::uint64_t found = TrajectoryReader(file("run.h5")).frames();
-    if (*completed_ == 0 && found == first + 2) continue;  // before the two frames were dropped
-    EXPECT_GE(found, first + *completed_) << "call " << call;
-    EXPECT_LE(found, first + *completed_ + 1) << "call " << call;
-    expect_frames(file("run.h5"), found, first - 1);  // as the reader sees it, with the journal
-    TrajectoryWriter::append_to(file("run.h5"), found);
-    expect_frames(file("run.h5"), found, first - 1);  // repaired
-    if (HasFailure()) return;
-  }
-  EXPECT_GT(call, 50);
-  continue_run();
-  expect_frames(file("run.h5"), first + frames, 0);
+  strike_at_every_write(Fault::kill, [&](std::uint64_t found) {
+    TrajectoryWriter::append_to(run_, found);
+    expect_frames_from(run_, found, first - 1);  // repaired
+  });
+  drop_and_add_frames();
+  expect_frames_from(run_, first + frames, 0);
 }
 
 TEST_F(InterruptedTrajectory, DiskFullAtEveryWrite) {
-  long call = 0;
-  for (;; ++call) {
-    start_again();
-    if (!struck(Fault::full_disk, call, [&] { continue_run(); })) break;
-    const std::uint64_t found = TrajectoryReader(file("run.h5")).frames();
-    if (*completed_ == 0 && found == first + 2) continue;
-    EXPECT_GE(found, first + *completed_) << "call " << call;
-    EXPECT_LE(found, first + *completed_ + 1) << "call " << call;
-    expect_frames(file("run.h5"), found, first - 1);
-    if (HasFailure()) return;
-  }
-  EXPECT_GT(call, 50);
+  strike_at_every_write(Fault::full_disk, [](std::uint64_t) {});
 }
 
 /// Another process adds frames, and stops at two of the calls that change the file.
@@ -221,13 +213,13 @@ class TrajectoryBeingWritten : public InterruptedTrajectory {
   }
 
   bool start(long first_call, long calls_between) {
-    fs::copy_file(file("start.h5"), file("run.h5"), fs::copy_options::overwrite_existing);
+    start_again();
     child_ = fork();
     if (child_ != 0) return is_stopped();
     fault = Fault::stop;
     calls_before_fault = first_call;
     calls_between_stops = calls_between;
-    auto writer = TrajectoryWriter::append_to(file("run.h5"), first + 2);
+    auto writer = TrajectoryWriter::append_to(run_, first + 2);
     for (std::uint64_t k = first + 2; k < first + 2 + frames; ++k) {
       writer.write(frame(k), k);
       writer.commit();
@@ -259,7 +251,7 @@ TEST_F(TrajectoryBeingWritten, IsReadAsItWasAtOneCommit) {
   long opened = 0;
   for (const long later : {1, 4, 11, 1000}) {
     for (long call = 1; start(call, later); ++call, ++opened) {
-      const TrajectoryReader reader(file("run.h5"));
+      const TrajectoryReader reader(run_);
       const std::uint64_t found = reader.frames();
       EXPECT_GE(found, first + 2);
       EXPECT_EQ(reader.import_report().size(), 1u);
@@ -275,24 +267,18 @@ TEST_F(TrajectoryBeingWritten, IsReadAsItWasAtOneCommit) {
   EXPECT_GT(opened, 200);
 }
 
-std::string bytes_from(const fs::path& path, std::size_t begin, std::size_t end) {
-  std::ifstream stream(path, std::ios::binary);
-  const std::string whole(std::istreambuf_iterator<char>(stream), {});
-  return whole.substr(std::min(begin, whole.size()), end - begin);
-}
-
 // The copy has its first bytes of one moment, and the others of a later one.
 TEST_F(TrajectoryBeingWritten, ASlowCopyHasFramesOfOneCommitOrIsRefused) {
   int whole = 0, refused = 0;
   for (const double part : {0.01, 0.2, 0.6, 0.95}) {
     for (const long later : {1, 8, 30}) {
       for (long call = 0; start(call, later); call += 3) {
-        const auto size = static_cast<double>(fs::file_size(file("run.h5")));
-        const auto begin = static_cast<std::size_t>(part * size);
-        std::string copy = bytes_from(file("run.h5"), 0, begin);
+        const std::string before = contents(run_);
+        const auto begin = static_cast<std::size_t>(part * static_cast<double>(before.size()));
         go_on();
-        copy += bytes_from(file("run.h5"), begin, std::string::npos);
-        std::ofstream(file("copy.h5"), std::ios::binary | std::ios::trunc) << copy;
+        const std::string after = contents(run_);
+        overwrite(file("copy.h5"),
+                  before.substr(0, begin) + after.substr(std::min(begin, after.size())));
         try {
           const TrajectoryReader reader(file("copy.h5"));
           EXPECT_GE(reader.frames(), first + 2);
@@ -337,13 +323,10 @@ TEST_F(InterruptedTrajectory, ADiskThatCannotBeReadIsOneMessage) {
   for (bool fails = true; fails; ++call) {
     fault = Fault::unreadable;
     calls_before_fault = call;
-    std::string message;
-    try {
+    const std::string message = file_error([&] {
       TrajectoryReader(file("start.h5")).read(first);
       fails = false;
-    } catch (const FileError& error) {
-      message = error.what();
-    }
+    });
     fault = Fault::none;
     EXPECT_EQ(fails, message.find("start.h5: cannot ") != std::string::npos &&
                          message.find("Input/output error") != std::string::npos)

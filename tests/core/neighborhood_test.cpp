@@ -9,28 +9,17 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <set>
-#include <tuple>
 #include <vector>
 
-#include "core/contact/ellipse_gap.h"
 #include "core/neighbors/list_pool.h"
 #include "core/neighbors/spatial_order.h"
 #include "core/random/stream.h"
+#include "tests/support/neighbor_crowd.h"
 
 namespace vitrel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-double distance(const Disk& one, double, const Disk& two, double, const Vec2& d) {
-  return d.norm() - one.radius - two.radius;
-}
-double distance(const Ellipse& one, double angle1, const Ellipse& two, double angle2,
-                const Vec2& d) {
-  if (d.isZero()) return -one.b - two.b;
-  return support_gap(one, angle1, two, angle2, d).gap;
-}
 
 Disk random_shape(Stream& draw, Disk) {
   return {draw.uniform(0.7, 1.4)};
@@ -41,120 +30,17 @@ Ellipse random_shape(Stream& draw, Ellipse) {
   return {b * draw.uniform(1, 2 / b), b};
 }
 
-/// Particles at any places, overlapping or not: the lists do not ask.
 template <class B>
-struct Crowd {
-  using Shape = BaseShape<B>;
-
-  PeriodicBox<2> box;
-  std::vector<Shape> kinds;
-  TypeIndex type_index;
-  std::vector<Shape> shapes;  // of every particle
-  std::vector<Pose2> poses;   // at the last renewal
-  std::vector<double> sizes;  // as well
-  Neighborhoods<B> lists;
-
-  /// Particle i is of kind i modulo their number.
-  Crowd(Stream& draw, const Vec2& lengths, std::size_t particles, double wanted, std::size_t count)
-      : box(lengths),
-        kinds(drawn_shapes(draw, count)),
-        type_index(kind_numbers(particles, count), count),
-        shapes(shapes_of_all(kinds, particles)),
-        poses(drawn_poses(draw, lengths, particles)),
-        sizes(particles, 1),
-        lists(box, kinds, type_index, poses, wanted) {}
-  Crowd(Stream& draw, const Vec2& lengths, std::size_t particles, double wanted)
-      : Crowd(draw, lengths, particles, wanted, particles) {}
-  Crowd(const Crowd&) = delete;
-
-  static std::vector<std::uint32_t> kind_numbers(std::size_t particles, std::size_t count) {
-    std::vector<std::uint32_t> numbers;
-    for (std::size_t i = 0; i < particles; ++i)
-      numbers.push_back(static_cast<std::uint32_t>(i % count));
-    return numbers;
-  }
-  static std::vector<Shape> shapes_of_all(const std::vector<Shape>& kinds, std::size_t particles) {
-    std::vector<Shape> all;
-    for (std::size_t i = 0; i < particles; ++i) all.push_back(kinds[i % kinds.size()]);
-    return all;
-  }
-  static std::vector<Shape> drawn_shapes(Stream& draw, std::size_t count) {
-    std::vector<Shape> drawn;
-    for (std::size_t k = 0; k < count; ++k) drawn.push_back(random_shape(draw, Shape{}));
-    return drawn;
-  }
-  static Pose2 drawn_pose(Stream& draw, const Vec2& lengths) {
-    const Vec2 place{draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)};
-    return {place.cwiseProduct(lengths), draw.uniform(-9, 9)};
-  }
-  static std::vector<Pose2> drawn_poses(Stream& draw, const Vec2& lengths, std::size_t particles) {
-    std::vector<Pose2> drawn;
-    for (std::size_t i = 0; i < particles; ++i) drawn.push_back(drawn_pose(draw, lengths));
-    return drawn;
-  }
-
-  void update(std::size_t i, const Pose2& pose, double size) {
-    poses[i] = pose;
-    sizes[i] = size;
-    lists.update(i, pose, size);
-  }
-};
-
-using Image = std::tuple<std::size_t, std::size_t, int, int>;  // i sees j at this shift
-
-template <class B>
-std::multiset<Image> listed(Crowd<B>& crowd) {
-  std::multiset<Image> images;
-  for (std::size_t i = 0; i < crowd.shapes.size(); ++i)
-    for (const Neighbor<B>& neighbor : crowd.lists.of(i))
-      images.insert({i, neighbor.other, neighbor.shift().x(), neighbor.shift().y()});
-  return images;
+Crowd<B> random_crowd(Stream& draw, const Vec2& lengths, std::size_t particles, double wanted,
+                      std::size_t count) {
+  std::vector<BaseShape<B>> kinds;
+  for (std::size_t k = 0; k < count; ++k) kinds.push_back(random_shape(draw, BaseShape<B>{}));
+  return {draw, lengths, particles, wanted, kinds};
 }
-
-/// What there is closer than `gap`, from either side.
+/// Six particles, all of different shapes, are in a box of 9 × 7.
 template <class B>
-std::multiset<Image> images_closer_than(const Crowd<B>& crowd, double gap) {
-  std::multiset<Image> images;
-  for (std::size_t i = 0; i < crowd.shapes.size(); ++i)
-    for (std::size_t j = 0; j < crowd.shapes.size(); ++j) {
-      const auto one = scaled(crowd.shapes[i], crowd.sizes[i]);
-      const auto two = scaled(crowd.shapes[j], crowd.sizes[j]);
-      crowd.box.for_each_image(
-          crowd.poses[j].position - crowd.poses[i].position,
-          one.circumradius() + two.circumradius() + gap, [&](const Shift<2>& shift, const Vec2& d) {
-            if (i == j && shift.isZero()) return;
-            if (distance(one, crowd.poses[i].angle, two, crowd.poses[j].angle, d) < gap)
-              images.insert({i, j, shift.x(), shift.y()});
-          });
-    }
-  return images;
-}
-
-Image seen_from_there(const Image& image) {
-  const auto [i, j, x, y] = image;
-  return {j, i, -x, -y};
-}
-
-// Complete: all images whose neighbourhoods meet are listed, by a brute force that shares no code with
-// the cells. No more than need be: none twice, own images once of ±shift, and few that are farther away
-// than half as far again. Symmetric.
-template <class B>
-void expect_lists_right(Crowd<B>& crowd) {
-  const double reach = 2 * crowd.lists.margin();
-  const std::multiset<Image> lists = listed(crowd);
-  for (const Image& image : lists) {
-    const auto [i, j, x, y] = image;
-    ASSERT_EQ(lists.count(image), 1u);
-    ASSERT_EQ(lists.count(seen_from_there(image)), i == j ? 0u : 1u);
-  }
-  for (const Image& image : images_closer_than(crowd, reach * (1 - 1e-12))) {
-    const bool own = std::get<0>(image) == std::get<1>(image);
-    ASSERT_TRUE(lists.count(image) == 1 || (own && lists.count(seen_from_there(image)) == 1))
-        << std::get<0>(image) << " lacks " << std::get<1>(image);
-  }
-  const std::multiset<Image> near = images_closer_than(crowd, 1.5 * reach);
-  const auto far = std::ranges::count_if(lists, [&](const Image& i) { return !near.contains(i); });
-  ASSERT_LE(static_cast<double>(far), 0.01 * static_cast<double>(lists.size()));
+Crowd<B> small_crowd(Stream& draw) {
+  return random_crowd<B>(draw, Vec2(9, 7), 6, 5, 6);
 }
 
 struct Scene {
@@ -182,26 +68,27 @@ TYPED_TEST(NeighborLists, HoldAllWhoseNeighborhoodsMeet) {
   Stream draw(61, Purpose::tests);
   for (const Scene& scene : scenes) {
     SCOPED_TRACE(scene.name);
-    for (const double wanted : {3.0, 7.0, 12.0}) {
-      Crowd<TypeParam> crowd(draw, scene.lengths, scene.particles, wanted, scene.kinds);
-      expect_lists_right(crowd);
-    }
+    for (const double wanted : {3.0, 7.0, 12.0})
+      random_crowd<TypeParam>(draw, scene.lengths, scene.particles, wanted, scene.kinds)
+          .expect_lists_right(0.01);
   }
 }
 
-// Over the faces of the box or anywhere, to the place of another particle (as in a corner of the box), and with growth at the size of the moment: the older a
-// neighbourhood, the smaller. (Shrinking, the larger.)
+// Particles move over the faces of the box or anywhere, also to the place of another (as in a
+// corner of the box), and with growth at the size of the moment: the older a neighbourhood, the
+// smaller. (Shrinking, the larger.)
 TYPED_TEST(NeighborLists, StayRightThroughThousandsOfRenewals) {
   Stream draw(62, Purpose::tests);
   for (const Scene& scene : scenes)
     for (const double last_size : {1.0, 1.5, 0.6}) {
       if (last_size != 1 && !std::is_same_v<TypeParam, GrowingEllipse>) continue;
       SCOPED_TRACE(scene.name);
-      Crowd<TypeParam> crowd(draw, scene.lengths, scene.particles, 7, scene.kinds);
+      Crowd<TypeParam> crowd =
+          random_crowd<TypeParam>(draw, scene.lengths, scene.particles, 7, scene.kinds);
       constexpr int renewals = 1'500;
       for (int n = 1; n <= renewals; ++n) {
         const std::size_t i = draw.below(scene.particles);
-        Pose2 pose = Crowd<TypeParam>::drawn_pose(draw, scene.lengths);
+        Pose2 pose = random_pose(draw, scene.lengths);
         if (n % 4) {
           const double step = crowd.lists.margin();
           pose.position =
@@ -209,10 +96,8 @@ TYPED_TEST(NeighborLists, StayRightThroughThousandsOfRenewals) {
           pose.angle = crowd.poses[i].angle + draw.uniform(-0.3, 0.3);
         }
         if (n % 7 == 0) pose.position = crowd.poses[draw.below(scene.particles)].position;
-        Shift<2> image = Shift<2>::Zero();
-        crowd.box.wrap(pose.position, image);
-        crowd.update(i, pose, std::pow(last_size, static_cast<double>(n) / renewals));
-        if (n % 100 == 0) expect_lists_right(crowd);
+        crowd.renew(i, pose, std::pow(last_size, static_cast<double>(n) / renewals));
+        if (n % 100 == 0) crowd.expect_lists_right(0.01);
         if (this->HasFatalFailure()) return;
       }
     }
@@ -222,8 +107,8 @@ TYPED_TEST(NeighborLists, StayRightThroughThousandsOfRenewals) {
 TYPED_TEST(NeighborLists, AreAsLongAsWanted) {
   Stream draw(63, Purpose::tests);
   for (const double wanted : {4.0, 7.0, 10.0}) {
-    Crowd<TypeParam> crowd(draw, Vec2(50, 50), 400, wanted);
-    EXPECT_NEAR(static_cast<double>(listed(crowd).size()), 400 * wanted, 0.05 * 400 * wanted);
+    Crowd<TypeParam> crowd = random_crowd<TypeParam>(draw, Vec2(50, 50), 400, wanted, 400);
+    EXPECT_NEAR(static_cast<double>(crowd.listed().size()), 400 * wanted, 0.05 * 400 * wanted);
   }
 }
 
@@ -236,7 +121,7 @@ TYPED_TEST_SUITE(Memories, Ellipses);
 
 TYPED_TEST(Memories, OfAPairStayWithIt) {
   Stream draw(64, Purpose::tests);
-  Crowd<TypeParam> crowd(draw, Vec2(12, 9), 20, 7);
+  Crowd<TypeParam> crowd = random_crowd<TypeParam>(draw, Vec2(12, 9), 20, 7, 20);
   const auto axis_of = [&](std::size_t i, const NeighborImage<2>& image) {
     for (const Neighbor<TypeParam>& neighbor : crowd.lists.of(i))
       if (neighbor.is(image)) return neighbor.warm_start.axis;
@@ -263,7 +148,7 @@ TYPED_TEST(Memories, OfAPairStayWithIt) {
 
 TYPED_TEST(Memories, BeginWithAnAxisThatSeparates) {
   Stream draw(65, Purpose::tests);
-  Crowd<TypeParam> crowd(draw, Vec2(25, 25), 100, 7);
+  Crowd<TypeParam> crowd = random_crowd<TypeParam>(draw, Vec2(25, 25), 100, 7, 100);
   int apart = 0, separated_by_it = 0;
   for (std::size_t i = 0; i < 100; ++i)
     for (const Neighbor<TypeParam>& neighbor : crowd.lists.of(i)) {
@@ -272,10 +157,10 @@ TYPED_TEST(Memories, BeginWithAnAxisThatSeparates) {
                      crowd.poses[i].position;
       const Vec2 n = neighbor.warm_start.axis;
       EXPECT_NEAR(n.norm(), 1, 1e-14);
-      const double reach = support(crowd.shapes[i], direction(crowd.poses[i].angle), n) +
-                           support(crowd.shapes[j], direction(crowd.poses[j].angle), n);
+      const double reach = support(crowd.shape(i), direction(crowd.poses[i].angle), n) +
+                           support(crowd.shape(j), direction(crowd.poses[j].angle), n);
       const double best =
-          distance(crowd.shapes[i], crowd.poses[i].angle, crowd.shapes[j], crowd.poses[j].angle, d);
+          distance(crowd.shape(i), crowd.poses[i].angle, crowd.shape(j), crowd.poses[j].angle, d);
       apart += best > 0;
       separated_by_it += best > 0 && n.dot(d) > reach;
     }
@@ -309,7 +194,7 @@ Inside random_inside(Stream& draw, const Crowd<B>& crowd, double growth) {
   const double room = crowd.lists.margin() * draw.uniform();
   const double share = draw.uniform();
   const double max_support_rate =
-      std::max(crowd.sizes[0] * crowd.shapes[0].max_support_rate(), 1e-3);
+      std::max(crowd.sizes[0] * crowd.shape(0).max_support_rate(), 1e-3);
   inside.pose = {crowd.poses[0].position + share * room * direction(draw.uniform(0, 2 * pi)),
                  crowd.poses[0].angle +
                      (1 - share) * room / max_support_rate * (draw.uniform() < 0.5 ? 1 : -1)};
@@ -318,20 +203,33 @@ Inside random_inside(Stream& draw, const Crowd<B>& crowd, double growth) {
   return inside;
 }
 
+template <class B>
+double exit_time(const Crowd<B>& crowd, const Inside& inside) {
+  return crowd.lists.exit_time(0, inside.pose, inside.motion, inside.common);
+}
+
+/// Returns |Δr| + rate |Δθ| since the last renewal.
+template <class B>
+double used_margin(const Crowd<B>& crowd, const Inside& inside, double time, double rate) {
+  const Pose2 pose = advanced(inside.pose, inside.motion, time);
+  return (pose.position - crowd.poses[0].position).norm() +
+         rate * std::abs(pose.angle - crowd.poses[0].angle);
+}
+
 // Sampled in time and in all directions, the body does not reach beyond its own shape at the last
 // renewal, widened by the margin.
 TYPED_TEST(Exits, UntilThenTheBodyIsInsideItsNeighborhood) {
   Stream draw(66, Purpose::tests);
   for (int trial = 0; trial < 400; ++trial) {
-    Crowd<TypeParam> crowd(draw, Vec2(9, 7), 6, 5);
+    Crowd<TypeParam> crowd = small_crowd<TypeParam>(draw);
     const bool grows = std::is_same_v<TypeParam, GrowingEllipse> && trial % 3;
     const double growth = grows ? (trial % 3 == 1 ? 0.3 : -0.3) * draw.uniform() : 0;
     if (grows) crowd.update(0, crowd.poses[0], 1 + growth * draw.uniform());
     Inside inside = random_inside(draw, crowd, growth);
     // Since the last renewal it has grown too, at first by as much as there is room for.
     if (growth > 0)
-      inside.common.size += 0.5 * crowd.lists.margin() / crowd.shapes[0].circumradius();
-    const double exit = crowd.lists.exit_time(0, inside.pose, inside.motion, inside.common);
+      inside.common.size += 0.5 * crowd.lists.margin() / crowd.shape(0).circumradius();
+    const double exit = exit_time(crowd, inside);
     ASSERT_GE(exit, 0);
     ASSERT_LT(exit, 1e9);
     for (int k = 0; k <= 40 && exit > 0; ++k) {
@@ -340,9 +238,9 @@ TYPED_TEST(Exits, UntilThenTheBodyIsInsideItsNeighborhood) {
       const double size = inside.common.size + growth * time;
       for (int m = 0; m < 90; ++m) {
         const Vec2 n = direction(2 * pi * m / 90);
-        const double now = n.dot(pose.position) + size * height(crowd.shapes[0], pose.angle, n);
+        const double now = n.dot(pose.position) + size * height(crowd.shape(0), pose.angle, n);
         const double then = n.dot(crowd.poses[0].position) +
-                            crowd.sizes[0] * height(crowd.shapes[0], crowd.poses[0].angle, n);
+                            crowd.sizes[0] * height(crowd.shape(0), crowd.poses[0].angle, n);
         ASSERT_LE(now, then + crowd.lists.margin() * (1 + 1e-12) + 1e-13) << "at " << k << "/40";
       }
     }
@@ -353,16 +251,12 @@ TYPED_TEST(Exits, UntilThenTheBodyIsInsideItsNeighborhood) {
 TYPED_TEST(Exits, ComeNoEarlierThanNeedBe) {
   Stream draw(67, Purpose::tests);
   for (int trial = 0; trial < 2'000; ++trial) {
-    Crowd<TypeParam> crowd(draw, Vec2(9, 7), 6, 5);
+    Crowd<TypeParam> crowd = small_crowd<TypeParam>(draw);
     const Inside inside = random_inside(draw, crowd, 0);
-    const auto used = [&](double time) {
-      const Pose2 pose = advanced(inside.pose, inside.motion, time);
-      return (pose.position - crowd.poses[0].position).norm() +
-             crowd.shapes[0].max_support_rate() * std::abs(pose.angle - crowd.poses[0].angle);
-    };
-    const double exit = crowd.lists.exit_time(0, inside.pose, inside.motion, inside.common);
-    EXPECT_NEAR(used(exit), crowd.lists.margin(), 1e-9 * crowd.lists.margin());
-    EXPECT_LT(used(0.5 * exit), crowd.lists.margin());
+    const double exit = exit_time(crowd, inside);
+    const double rate = crowd.shape(0).max_support_rate(), margin = crowd.lists.margin();
+    EXPECT_NEAR(used_margin(crowd, inside, exit, rate), margin, 1e-9 * margin);
+    EXPECT_LT(used_margin(crowd, inside, 0.5 * exit, rate), margin);
   }
 }
 
@@ -371,15 +265,12 @@ TYPED_TEST(Exits, ComeNoEarlierThanNeedBe) {
 TEST(GrowingExits, ComeNotMuchEarlierThanNeedBe) {
   Stream draw(68, Purpose::tests);
   for (int trial = 0; trial < 2'000; ++trial) {
-    Crowd<GrowingEllipse> crowd(draw, Vec2(9, 7), 6, 5);
+    Crowd<GrowingEllipse> crowd = small_crowd<GrowingEllipse>(draw);
     const double growth = draw.uniform(0.01, 1);
     const Inside inside = random_inside(draw, crowd, growth);
-    const double exit = crowd.lists.exit_time(0, inside.pose, inside.motion, inside.common);
-    const Pose2 pose = advanced(inside.pose, inside.motion, exit);
-    const double used =
-        (pose.position - crowd.poses[0].position).norm() +
-        1.1 * crowd.shapes[0].max_support_rate() * std::abs(pose.angle - crowd.poses[0].angle) +
-        growth * exit * crowd.shapes[0].circumradius();
+    const double exit = exit_time(crowd, inside);
+    const double used = used_margin(crowd, inside, exit, 1.1 * crowd.shape(0).max_support_rate()) +
+                        growth * exit * crowd.shape(0).circumradius();
     EXPECT_LE(growth * exit, 0.1 + 1e-12);
     const bool at_the_tenth = std::abs(growth * exit - 0.1) < 1e-12;
     const bool outside_already = exit == 0;
@@ -391,7 +282,7 @@ TEST(GrowingExits, ComeNotMuchEarlierThanNeedBe) {
 
 TYPED_TEST(Exits, ComeAtOnceOutsideAndNeverAtRest) {
   Stream draw(69, Purpose::tests);
-  Crowd<TypeParam> crowd(draw, Vec2(9, 7), 6, 5);
+  Crowd<TypeParam> crowd = small_crowd<TypeParam>(draw);
   Pose2 outside = crowd.poses[0];
   outside.position.x() += 1.01 * crowd.lists.margin();
   EXPECT_EQ(crowd.lists.exit_time(0, outside, {{-1, 0}, 0.1}, {1, 0}), 0);
@@ -405,17 +296,16 @@ TYPED_TEST(Exits, ComeLaterFromANeighborhoodAhead) {
   Stream draw(73, Purpose::tests);
   int unhindered = 0;
   for (int trial = 0; trial < 500; ++trial) {
-    const Vec2 lengths(9, 7);
-    Crowd<TypeParam> crowd(draw, lengths, 6, 5);
+    Crowd<TypeParam> crowd = small_crowd<TypeParam>(draw);
     const Pose2 pose = crowd.poses[0];
     const Motion2 motion{{draw.normal(), draw.normal()}, 3 * draw.normal()};
     const double present = crowd.lists.exit_time(0, pose, motion, {1, 0});
     const Pose2 ahead = crowd.lists.ahead_of(0, pose, motion);
-    EXPECT_TRUE((ahead.position.array().abs() <= 0.5 * lengths.array()).all());
+    EXPECT_TRUE((ahead.position.array().abs() <= 0.5 * crowd.box.lengths().array()).all());
     crowd.update(0, ahead, 1);
     const double later = crowd.lists.exit_time(0, pose, motion, {1, 0});
     EXPECT_GT(later, present);
-    if ((ahead.position.array().abs() == 0.5 * lengths.array()).any()) continue;
+    if ((ahead.position.array().abs() == 0.5 * crowd.box.lengths().array()).any()) continue;
     EXPECT_NEAR(later, 1.4 * present, 1e-9 * present);
     ++unhindered;
   }

@@ -60,23 +60,21 @@ using Batches = testing::Types<SimdPair, Simd<4>, Simd<8>>;
 TYPED_TEST_SUITE(SimdTest, Batches);
 
 TYPED_TEST(SimdTest, Arithmetic) {
-  this->expect_same(std::plus<>(), std::plus<>());
-  this->expect_same(std::minus<>(), std::minus<>());
-  this->expect_same(std::multiplies<>(), std::multiplies<>());
-  this->expect_same(std::divides<>(), std::divides<>());
-  const auto scaled = [](const auto& x, const auto& y) { return 1. - 2 * x + y * 0.5; };
-  this->expect_same(scaled, scaled);
-  const auto negative = [](const auto& x, const auto&) { return -x; };
-  this->expect_same(negative, negative);
+  const auto test = [&](auto op) { this->expect_same(op, op); };
+  test(std::plus<>());
+  test(std::minus<>());
+  test(std::multiplies<>());
+  test(std::divides<>());
+  test([](const auto& x, const auto& y) { return 1. - 2 * x + y * 0.5; });
+  test([](const auto& x, const auto&) { return -x; });
 }
 
 TYPED_TEST(SimdTest, Functions) {
-  this->expect_same([](auto x, auto) { return sqrt(x); },
-                    [](double x, double) { return std::sqrt(x); });
-  this->expect_same([](auto x, auto) { return abs(x); },
-                    [](double x, double) { return std::abs(x); });
-  this->expect_same([](auto x, auto y) { return copysign(x, y); },
-                    [](double x, double y) { return std::copysign(x, y); });
+  using std::abs, std::copysign, std::sqrt;  // beside those of batches
+  const auto test = [&](auto op) { this->expect_same(op, op); };
+  test([](auto x, auto) { return sqrt(x); });
+  test([](auto x, auto) { return abs(x); });
+  test([](auto x, auto y) { return copysign(x, y); });
   this->expect_same([](auto x, auto y) { return min(x, y); },
                     [](double x, double y) { return x < y ? x : y; });
   this->expect_same([](auto x, auto y) { return max(x, y); },

@@ -16,24 +16,39 @@
 namespace vitrel {
 namespace {
 
+using Kind = Distribution::Kind;
+
 Distribution number(double value) {
-  return {Distribution::Kind::constant, value, 0, 0, 0, 0};
+  return {Kind::constant, value, 0, 0, 0, 0};
+}
+Distribution uniform(double low, double high, double min) {
+  return {Kind::uniform, 0, 0, low, high, min};
+}
+
+std::vector<Species> species_of(const std::vector<double>& fractions) {
+  std::vector<Species> species(fractions.size());
+  for (std::size_t k = 0; k < fractions.size(); ++k) species[k].fraction = fractions[k];
+  return species;
+}
+
+/// Draws the particles in a square or cube.
+template <int Dim>
+Configuration<Dim> drawn(const std::vector<Species>& species, std::size_t particles,
+                         std::uint64_t seed = 7) {
+  return draw_particles<Dim>(species, particles, 0.3, Vec<Dim>::Ones(), seed);
 }
 
 TEST(SpeciesCounts, LargestRemaindersGetTheParticlesLeftOver) {
-  std::vector<Species> species(3);
-  species[0].fraction = species[1].fraction = species[2].fraction = 1.0 / 3;
-  EXPECT_EQ(species_counts(species, 100), (std::vector<std::size_t>{34, 33, 33}));
-  EXPECT_EQ(species_counts(species, 99), (std::vector<std::size_t>{33, 33, 33}));
-  species[0].fraction = 0.07;  // 0.7 → 1
-  species[1].fraction = 0.58;  // 5.8 → 6
-  species[2].fraction = 0.35;  // 3.5 → 3
-  EXPECT_EQ(species_counts(species, 10), (std::vector<std::size_t>{1, 6, 3}));
+  const std::vector<Species> equal = species_of({1.0 / 3, 1.0 / 3, 1.0 / 3});
+  EXPECT_EQ(species_counts(equal, 100), (std::vector<std::size_t>{34, 33, 33}));
+  EXPECT_EQ(species_counts(equal, 99), (std::vector<std::size_t>{33, 33, 33}));
+  // The shares are 0.7 → 1, 5.8 → 6 and 3.5 → 3.
+  EXPECT_EQ(species_counts(species_of({0.07, 0.58, 0.35}), 10),
+            (std::vector<std::size_t>{1, 6, 3}));
 }
 
 TEST(DrawParticles, TheBoxHasThePackingFractionAndTheAspect) {
-  std::vector<Species> species(2);
-  species[0].fraction = species[1].fraction = 0.5;
+  std::vector<Species> species = species_of({0.5, 0.5});
   species[0].aspect_ratio = number(3);
   species[1].size = number(1.4);
   const Configuration2 system = draw_particles<2>(species, 101, 0.6, Vec2(1, 2.5), 7);
@@ -50,8 +65,7 @@ TEST(DrawParticles, TheBoxHasThePackingFractionAndTheAspect) {
 }
 
 TEST(DrawParticles, SpeciesAreMixedAndTheSeedDecides) {
-  std::vector<Species> species(2);
-  species[0].fraction = species[1].fraction = 0.5;
+  std::vector<Species> species = species_of({0.5, 0.5});
   const auto order = [&](std::uint64_t seed) {
     return draw_particles<2>(species, 1000, 0.5, Vec2::Ones(), seed).species;
   };
@@ -69,19 +83,18 @@ TEST(DrawParticles, SemiAxesAndMassAreTakenAsGiven) {
   std::vector<Species> species(1);
   species[0].semi_axes = {number(3.3), number(0.7)};
   species[0].mass = 5;
-  const Configuration2 system = draw_particles<2>(species, 4, 0.3, Vec2::Ones(), 1);
+  const Configuration2 system = drawn<2>(species, 4, 1);
   EXPECT_EQ(system.shape[2].a, 3.3);
   EXPECT_EQ(system.shape[2].b, 0.7);
   EXPECT_EQ(system.mass[2], 5);
 }
 
 TEST(DrawParticles, TheLargerOfTwoDrawnSemiAxesIsTheMajorOne) {
-  const Distribution uniform{Distribution::Kind::uniform, 0, 0, 1, 2, 0.1};
   std::vector<Species> species(1);
-  species[0].semi_axes = {uniform, uniform};
+  species[0].semi_axes = {uniform(1, 2, 0.1), uniform(1, 2, 0.1)};
   constexpr std::size_t n = 1000;
   double major = 0, minor = 0;
-  for (const Ellipse& shape : draw_particles<2>(species, n, 0.3, Vec2::Ones(), 7).shape) {
+  for (const Ellipse& shape : drawn<2>(species, n).shape) {
     EXPECT_GE(shape.a, shape.b);
     major += shape.a;
     minor += shape.b;
@@ -95,17 +108,15 @@ TEST(DrawParticles, TheLargerOfTwoDrawnSemiAxesIsTheMajorOne) {
 TEST(DrawParticles, TheFirstSemiAxisReplacesTheSize) {
   std::vector<Species> species(1);
   species[0].first_semi_axis = number(3);
-  species[0].aspect_ratio = Distribution{Distribution::Kind::uniform, 0, 0, 1, 5, 1};
-  for (const Ellipse& shape : draw_particles<2>(species, 20, 0.3, Vec2::Ones(), 7).shape) {
+  species[0].aspect_ratio = uniform(1, 5, 1);
+  for (const Ellipse& shape : drawn<2>(species, 20).shape) {
     EXPECT_EQ(shape.a, 3);
     EXPECT_GE(shape.b, 0.6);
   }
 }
 
 TEST(DrawSolids, TheCubeHasThePackingFractionAndTheShapesTheRatios) {
-  std::vector<Species> species(3);
-  species[0].fraction = species[1].fraction = 0.25;
-  species[2].fraction = 0.5;
+  std::vector<Species> species = species_of({0.25, 0.25, 0.5});
   species[0].aspect_ratio = number(3);
   species[1].aspect_ratios = {number(4), number(0.5)};
   species[1].size = number(1.4);
@@ -132,11 +143,9 @@ TEST(DrawSolids, TheCubeHasThePackingFractionAndTheShapesTheRatios) {
 }
 
 TEST(DrawSolids, BothAspectRatiosAreDrawn) {
-  using Kind = Distribution::Kind;
   std::vector<Species> species(1);
-  species[0].aspect_ratios = {Distribution{Kind::uniform, 0, 0, 1, 5, 1},
-                              Distribution{Kind::uniform, 0, 0, 0.1, 2, 0.1}};
-  const Configuration3 system = draw_particles<3>(species, 1000, 0.3, Vec3::Ones(), 7);
+  species[0].aspect_ratios = {uniform(1, 5, 1), uniform(0.1, 2, 0.1)};
+  const Configuration3 system = drawn<3>(species, 1000);
   double sum1 = 0, sum2 = 0;
   for (const Ellipsoid& shape : system.shape) {
     sum1 += shape.semi_axes[0] / shape.semi_axes[1];
@@ -149,13 +158,11 @@ TEST(DrawSolids, BothAspectRatiosAreDrawn) {
 
 // The ratios are those drawn without a first semi-axis.
 TEST(DrawSolids, TheFirstSemiAxisIsTheSameAtAllRatios) {
-  using Kind = Distribution::Kind;
   std::vector<Species> species(1);
-  species[0].aspect_ratios = {Distribution{Kind::uniform, 0, 0, 0.1, 2, 0.1},
-                              Distribution{Kind::uniform, 0, 0, 0.1, 2, 0.1}};
-  const Configuration3 sized = draw_particles<3>(species, 50, 0.3, Vec3::Ones(), 7);
+  species[0].aspect_ratios = {uniform(0.1, 2, 0.1), uniform(0.1, 2, 0.1)};
+  const Configuration3 sized = drawn<3>(species, 50);
   species[0].first_semi_axis = number(3);
-  const Configuration3 system = draw_particles<3>(species, 50, 0.3, Vec3::Ones(), 7);
+  const Configuration3 system = drawn<3>(species, 50);
   for (std::size_t i = 0; i < system.size(); ++i) {
     const Vec3 &axes = system.shape[i].semi_axes, &other = sized.shape[i].semi_axes;
     EXPECT_EQ(axes[0], 3);
@@ -164,12 +171,10 @@ TEST(DrawSolids, TheFirstSemiAxisIsTheSameAtAllRatios) {
 }
 
 TEST(DrawSolids, SemiAxesAreDrawnOneByOne) {
-  using Kind = Distribution::Kind;
   std::vector<Species> species(1);
-  species[0].semi_axes = {Distribution{Kind::uniform, 0, 0, 1, 2, 1}, number(0.5),
-                          Distribution{Kind::uniform, 0, 0, 3, 4, 1}};
+  species[0].semi_axes = {uniform(1, 2, 1), number(0.5), uniform(3, 4, 1)};
   double sum = 0;
-  for (const Ellipsoid& shape : draw_particles<3>(species, 1000, 0.3, Vec3::Ones(), 7).shape) {
+  for (const Ellipsoid& shape : drawn<3>(species, 1000).shape) {
     const Vec3& axes = shape.semi_axes;
     EXPECT_TRUE(axes[0] >= 1 && axes[0] <= 2 && axes[1] == 0.5 && axes[2] >= 3 && axes[2] <= 4);
     sum += axes[0] + axes[2];
@@ -198,7 +203,6 @@ void expect_moments(const Distribution& distribution, double mean, double deviat
 }
 
 TEST(Distribution, HasTheMomentsAskedFor) {
-  using Kind = Distribution::Kind;
   expect_moments({Kind::gaussian, 2, 0.4, 0, 0, -1e9}, 2, 0.4, 3);
   expect_moments({Kind::lognormal, 2, 0.4, 0, 0, 0}, 2, 0.4, 3.7);
   expect_moments({Kind::uniform, 1, 0, 1, 4, 0}, 2.5, 3 / std::sqrt(12.0), 1.8);
@@ -214,8 +218,8 @@ TEST(Distribution, PowerLawHasItsMoments) {
     const double mean = moment(1), variance = moment(2) - mean * mean;
     const double fourth = moment(4) - 4 * mean * moment(3) + 6 * mean * mean * moment(2) -
                           3 * mean * mean * mean * mean;
-    expect_moments({.kind = Distribution::Kind::power_law, .low = 1, .high = 2, .exponent = n},
-                   mean, std::sqrt(variance), fourth / (variance * variance));
+    expect_moments({.kind = Kind::power_law, .low = 1, .high = 2, .exponent = n}, mean,
+                   std::sqrt(variance), fourth / (variance * variance));
   }
 }
 
@@ -225,15 +229,14 @@ double share_of_normal(double z) {
 
 // Against the distribution functions.
 TEST(Distribution, QuantilesDivideItIntoEqualShares) {
-  using Kind = Distribution::Kind;
   constexpr std::size_t n = 100;
   const auto expect_shares = [](const Distribution& d, auto&& share) {
     const std::vector<double> values = d.quantiles(n);
     for (std::size_t k = 0; k < n; ++k)
       EXPECT_NEAR(share(values[k]), (static_cast<double>(k) + 0.5) / n, 1e-14);
   };
-  expect_shares({Kind::uniform, 0, 0, 1, 3, 0.1}, [](double x) { return (x - 1) / 2; });
-  expect_shares({Kind::uniform, 0, 0, 1, 3, 2}, [](double x) { return x - 2; });
+  expect_shares(uniform(1, 3, 0.1), [](double x) { return (x - 1) / 2; });
+  expect_shares(uniform(1, 3, 2), [](double x) { return x - 2; });
   for (const double m : {-2., 1.5}) {
     const Distribution law{.kind = Kind::power_law, .low = 0.1, .high = 10, .exponent = m - 1};
     const double low = std::pow(0.1, m), high = std::pow(10, m);
@@ -245,7 +248,6 @@ TEST(Distribution, QuantilesDivideItIntoEqualShares) {
 }
 
 TEST(Distribution, QuantilesHaveTheMomentsAskedFor) {
-  using Kind = Distribution::Kind;
   for (const Kind kind : {Kind::gaussian, Kind::lognormal})
     for (const std::size_t n : {2U, 10U, 1001U}) {
       const std::vector<double> values = Distribution{kind, 2, 0.4, 0, 0, 0.1}.quantiles(n);
@@ -259,16 +261,13 @@ TEST(Distribution, QuantilesHaveTheMomentsAskedFor) {
   EXPECT_EQ((Distribution{Kind::lognormal, 2, 0.4, 0, 0, 0.1}.quantiles(1)), std::vector{2.0});
   // So broad that the smallest of three would be negative.
   EXPECT_GT((Distribution{Kind::lognormal, 1, 5, 0, 0, 1e-3}.quantiles(3)[0]), 0);
-  EXPECT_THROW((Distribution{Kind::uniform, 0, 0, 0, 1, 2}.quantiles(5)), UserError);
+  EXPECT_THROW(uniform(0, 1, 2).quantiles(5), UserError);
 }
 
 std::vector<Species> two_laws() {
-  using Kind = Distribution::Kind;
-  std::vector<Species> species(2);
-  species[0].fraction = 0.7;
+  std::vector<Species> species = species_of({0.7, 0.3});
   species[0].aspect_ratio = Distribution{Kind::gaussian, 3, 0.3, 0, 0, 1};
   species[0].size = Distribution{Kind::power_law, 0, 0, 0.5, 2, 0.1};
-  species[1].fraction = 0.3;
   species[1].aspect_ratio = number(2);
   return species;
 }
@@ -314,10 +313,9 @@ TEST(DrawParticles, SeveralDistributionsAreNotCorrelated) {
 
 TEST(Distribution, DrawsBelowTheMinimumAreDrawnAgain) {
   Stream stream(5, Purpose::tests);
-  const Distribution half{Distribution::Kind::gaussian, 1, 0.5, 0, 0, 1};
+  const Distribution half{Kind::gaussian, 1, 0.5, 0, 0, 1};
   for (int k = 0; k < 1000; ++k) EXPECT_GE(half.draw(stream), 1);
-  const Distribution impossible{Distribution::Kind::uniform, 0, 0, 0, 1, 2};
-  EXPECT_THROW(impossible.draw(stream), UserError);
+  EXPECT_THROW(uniform(0, 1, 2).draw(stream), UserError);
 }
 
 }  // namespace

@@ -4,7 +4,11 @@
 
 #include <vector>
 
+#include "core/contact/ellipse_vieillard_baron.h"
+#include "core/contact/ellipsoid_eta.h"
 #include "core/state/check.h"
+#include "core/state/exact_pair.h"
+#include "tests/support/solids.h"
 
 /// What the tests of the exact check share in two and three dimensions.
 namespace vitrel {
@@ -14,6 +18,32 @@ Configuration<Dim> empty_box(const Vec<Dim>& lengths) {
   Configuration<Dim> configuration;
   configuration.box = PeriodicBox<Dim>(lengths);
   return configuration;
+}
+
+template <int Dim>
+Orientation<Dim> random_turn(Stream& draw) {
+  if constexpr (Dim == 2)
+    return draw.uniform(-9, 9);
+  else
+    return random_orientation(draw);
+}
+
+inline void turn(Configuration2& state, std::size_t i, double angle) {
+  state.angle[i] = angle;
+}
+inline void turn(Configuration3& state, std::size_t i, const Quaternion& orientation) {
+  state.orientation[i] = orientation;
+}
+
+/// Returns whether the bodies are disjoint or touch, by the signs of the characteristic polynomial
+/// in the arithmetic of the particles.
+template <int Dim, class Real>
+bool apart_by_criterion(const exact::Particle<Dim, Real>& one,
+                        const exact::Particle<Dim, Real>& two, const exact::Point<Dim, Real>& d) {
+  if constexpr (Dim == 2)
+    return vieillard_baron<Real>(one.axes, two.axes, d.x(), d.y()).disjoint_or_touching();
+  else
+    return ellipsoid_eta<Real>(one.axes, two.axes, d).disjoint_or_touching();
 }
 
 /// By all pairs and by cells.
