@@ -5,6 +5,7 @@
 #include <concepts>
 #include <memory>
 #include <numbers>
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -59,9 +60,10 @@ class Neighborhoods {
       : box_(box),
         shapes_(shapes),
         type_index_(type_index),
-        largest_(largest_circumradius()),
-        smallest_(smallest_inradius()),
-        sizes_differ_(smallest_circumradius() < 0.8 * largest_),
+        largest_(std::ranges::max(shapes | std::views::transform(&Shape::circumradius))),
+        smallest_(std::ranges::min(shapes | std::views::transform(&Shape::inradius))),
+        sizes_differ_(std::ranges::min(shapes | std::views::transform(&Shape::circumradius)) <
+                      0.8 * largest_),
         cells_(box, cell_width(poses.size()), poses.size()),
         listed_at_(poses.size()) {
     if constexpr (has_capsule) capsules_ = std::vector<CapsuleOf>(shapes.begin(), shapes.end());
@@ -250,24 +252,6 @@ class Neighborhoods {
     if constexpr (!is_sphere) made.rotated = orientation_of(pose);
     if constexpr (has_capsule) made.capsule = capsules_[type_index_[i]].at(made.rotated, size);
     return made;
-  }
-
-  double largest_circumradius() const {
-    double largest = 0;
-    for (const Shape& shape : shapes_) largest = std::max(largest, shape.circumradius());
-    return largest;
-  }
-
-  double smallest_circumradius() const {
-    double smallest = largest_;
-    for (const Shape& shape : shapes_) smallest = std::min(smallest, shape.circumradius());
-    return smallest;
-  }
-
-  double smallest_inradius() const {
-    double smallest = largest_;
-    for (const Shape& shape : shapes_) smallest = std::min(smallest, shape.inradius());
-    return smallest;
   }
 
   // Returns the width of cells: half the largest circumradius or, if that is larger, the width for about this number of
