@@ -1,23 +1,13 @@
 // Files that earlier versions wrote (tests/fixtures/<version>): this one opens them and continues them.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
 
 namespace vitrel {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using testing_program::all_datasets;
-using testing_program::Datasets;
-using testing_program::Folder;
-using testing_program::Outcome;
-using testing_program::run;
-using testing_program::succeed;
 
 std::vector<std::string> versions() {
   std::vector<std::string> names;
@@ -34,24 +24,16 @@ class Fixtures : public testing::TestWithParam<std::string> {
     fs::copy(fs::path(VITREL_FIXTURES) / GetParam(), folder_.path());
   }
 
-  void expect_success(const std::vector<std::string>& arguments) const {
-    succeed(folder_, arguments);
-  }
-  /// The summary of a command that must succeed.
-  Json summary(std::vector<std::string> arguments) const {
-    arguments.push_back("--json");
-    const std::string output = succeed(folder_, arguments);
-    return output.empty() ? Json::object() : Json::parse(output);
-  }
   void expect_no_overlap(const std::string& file, std::uint64_t frames) const {
-    const Json check = summary({"check", file});
+    const Json check = folder_.summary("check " + file);
     EXPECT_EQ(check["frames"], frames);
     EXPECT_EQ(check["overlaps"], 0);
   }
   void expect_exports(const std::string& file, const std::vector<std::string>& formats) const {
     for (const std::string& format : formats) {
-      expect_success({"export", file, "--to", format, "-o", "exported." + format, "-q"});
-      EXPECT_GT(fs::file_size(folder_ / ("exported." + format)), 0u) << format;
+      const std::string exported = file + "." + format;
+      folder_.succeed("export " + file + " -q --to " + format + " -o " + exported);
+      EXPECT_GT(fs::file_size(folder_ / exported), 0u) << exported;
     }
   }
 
@@ -77,7 +59,7 @@ TEST_P(Fixtures, ARunInProgressContinuesToItsEnd) {
   ASSERT_GT(frames, 1u);
   ASSERT_LT(frames, all_frames);
   expect_no_overlap("run.h5", frames);
-  const Json done = summary({"run", "run.toml", "-o", "run.h5"});
+  const Json done = folder_.summary("run run.toml -o run.h5");
   EXPECT_EQ(done["complete"], true);
   const Datasets after = all_datasets(folder_ / "run.h5");
   EXPECT_EQ(after.at("/particles/all/position/time").size(), all_frames);
@@ -86,23 +68,21 @@ TEST_P(Fixtures, ARunInProgressContinuesToItsEnd) {
 }
 
 TEST_P(Fixtures, ARunIsAnalysedShownAndExported) {
-  expect_success({"analyze", "run.h5", "-q"});
-  expect_success({"report", "run.h5", "-q"});
+  folder_.succeed("analyze run.h5 -q");
+  folder_.succeed("report run.h5 -q");
   expect_exports("run.h5", {"csv", "gsd", "xyz"});
 }
 
-TEST_P(Fixtures, AStateIsShownExportedAndStartedFrom) {
-  expect_no_overlap("state.h5", 1);
-  expect_success({"report", "state.h5", "-q"});
-  expect_exports("state.h5", {"csv", "gsd", "xyz"});
-  expect_success({"run", "state.toml", "--from", "state.h5", "-o", "started.h5", "-q"});
-}
-
-TEST_P(Fixtures, APackingIsShownExportedAndStartedFrom) {
-  expect_no_overlap("packing.h5", 1);
-  expect_success({"report", "packing.h5", "-q"});
-  expect_exports("packing.h5", {"csv", "geo", "vti", "vtp"});
-  expect_success({"run", "packing.toml", "--from", "packing.h5", "-o", "started.h5", "-q"});
+TEST_P(Fixtures, StatesAndPackingsAreShownExportedAndStartedFrom) {
+  const std::vector<std::string> in_plane = {"csv", "gsd", "xyz"};
+  const std::vector<std::string> in_space = {"csv", "geo", "vti", "vtp"};
+  for (const auto& [name, formats] :
+       {std::pair(std::string("state"), in_plane), {std::string("packing"), in_space}}) {
+    expect_no_overlap(name + ".h5", 1);
+    folder_.succeed("report " + name + ".h5 -q");
+    expect_exports(name + ".h5", formats);
+    folder_.succeed("run " + name + ".toml --from " + name + ".h5 -o from_" + name + ".h5 -q");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Versions, Fixtures, testing::ValuesIn(versions()),

@@ -1,8 +1,5 @@
 // Habits that users bring along: help and suggestions, completion, a manual page, colour, lines that fit a terminal.
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -14,24 +11,14 @@
 
 #include "app/terminal/text_lines.h"
 #include "core/io/h5md.h"
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
 
 namespace vitrel {
 namespace {
 
 using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::IsSupersetOf;
-using testing::Not;
-using testing::StartsWith;
-using testing::UnorderedElementsAre;
-using testing_program::Folder;
-using testing_program::Outcome;
-using testing_program::run;
 using testing_program::run_on_terminal;
-using Words = std::vector<std::string>;
 
 const std::string small_system =
     "[system]\nparticles = 30\n[dynamics]\nequilibration = 0\nduration = 5\n"
@@ -56,40 +43,30 @@ std::vector<std::string> entries_below(const std::string& heading, const std::st
   return words;
 }
 
-Words join(Words first, const Words& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
-/// "vitrel pair gap".
-std::string full_name(const Words& command) {
-  return fmt::format("vitrel {}", fmt::join(command, " "));
-}
-
 class HabitsTest : public testing::Test {
  protected:
-  std::string output_of(const Words& words) const {
-    const Outcome outcome = run(folder.path(), words);
+  std::string output_of(const std::string& command) const {
+    const Outcome outcome = folder.run(command);
     EXPECT_EQ(outcome.code, 0) << outcome.errors;
     EXPECT_EQ(outcome.errors, "");
     return outcome.output;
   }
-  std::string help_of(const Words& command) const { return output_of(join({"help"}, command)); }
+  std::string help_of(const std::string& command) const { return output_of("help " + command); }
   /// Those of the program, or of a command that has some.
-  Words commands(const Words& parent = {}) const {
+  std::vector<std::string> commands(const std::string& parent = "") const {
     return entries_below("Commands:", help_of(parent));
   }
-  /// Each by its words, such as pair gap.
-  std::vector<Words> all_commands() const {
-    std::vector<Words> all;
+  /// Each by its words, such as "pair gap".
+  std::vector<std::string> all_commands() const {
+    std::vector<std::string> all;
     for (const std::string& command : commands()) {
-      all.push_back({command});
-      for (const std::string& below : commands({command})) all.push_back({command, below});
+      all.push_back(command);
+      for (const std::string& below : commands(command)) all.push_back(command + " " + below);
     }
     return all;
   }
   /// The names of the options of a command, each dash included.
-  std::set<std::string> options_of(const Words& command) const {
+  std::set<std::string> options_of(const std::string& command) const {
     std::set<std::string> names;
     for (const std::string& entry : entries_below("Options:", help_of(command))) {
       std::istringstream parts(entry);
@@ -98,105 +75,95 @@ class HabitsTest : public testing::Test {
     return names;
   }
   /// That message alone.
-  void expect_refusal(const Words& words, const std::string& errors) const {
-    const Outcome outcome = run(folder.path(), words);
-    EXPECT_EQ(outcome.code, 2);
+  void expect_refusal(const std::string& command, const std::string& errors) const {
+    const Outcome outcome = folder.run(command);
+    EXPECT_EQ(outcome.code, 2) << command;
     EXPECT_EQ(outcome.errors, errors + "\n");
     EXPECT_EQ(outcome.output, "");
   }
+  std::string shown_on_terminal(const std::string& command,
+                                const std::map<std::string, std::string>& environment = {}) const {
+    return run_on_terminal(folder.path(), words_of(command), environment).output;
+  }
 
-  const Folder folder{"habits"};
+  const Folder folder{"habits", small_system};
 };
 
 // ---- help, version, suggestions ---------------------------------------------------------------------
 
 TEST_F(HabitsTest, HelpAndVersionAreCommandsAndOptions) {
-  EXPECT_EQ(output_of({"help"}), output_of({"--help"}));
-  EXPECT_EQ(output_of({"version"}), output_of({"--version"}));
+  EXPECT_EQ(output_of("help"), output_of("--help"));
+  EXPECT_EQ(output_of("version"), output_of("--version"));
   EXPECT_THAT(commands(),
               IsSupersetOf({"prepare", "run", "check", "analyze", "sweep", "report", "export",
                             "pair", "params", "picture", "completion", "man", "help", "version"}));
-  EXPECT_THAT(commands({"pair"}),
+  EXPECT_THAT(commands("pair"),
               ElementsAre("overlap", "gap", "contact-time", "path", "restitution"));
-  for (const Words& command : all_commands()) {
+  for (const std::string& command : all_commands()) {
     const std::string help = help_of(command);
-    EXPECT_THAT(help, HasSubstr("Usage: " + full_name(command)));
-    if (command.front() != "bench") {  // whose own help is that of vitrel-bench
-      EXPECT_EQ(help, output_of(join(command, {"--help"})));
+    EXPECT_THAT(help, HasSubstr("Usage: vitrel " + command));
+    if (!command.starts_with("bench")) {  // whose own help is that of vitrel-bench
+      EXPECT_EQ(help, output_of(command + " --help"));
     }
     for (const std::string& line : lines_of(help)) EXPECT_LE(columns(line), line_width) << line;
   }
 }
 
 TEST_F(HabitsTest, TextThatCannotBePrintedIsAnError) {
-  for (const Words& words : std::vector<Words>{{"--help"},
-                                               {"--version"},
-                                               {"run", "--help"},
-                                               {"help"},
-                                               {"help", "run"},
-                                               {"version"},
-                                               {"man"},
-                                               {"completion", "bash"},
-                                               {"analyze", "--list"},
-                                               {"params", "run"},
-                                               {"params", "--reference"},
-                                               {"params", "--python"}}) {
-    SCOPED_TRACE(testing::PrintToString(words));
-    testing_program::expect_refusal(testing_program::run_on_full_disk(folder.path(), words), 3,
-                                    "standard output: cannot be written: No space left on device");
+  for (const char* command : {"--help", "--version", "run --help", "help", "help run", "version",
+                              "man", "completion bash", "analyze --list", "params run",
+                              "params --reference", "params --python"}) {
+    SCOPED_TRACE(command);
+    testing_program::expect_refusal(
+        testing_program::run_on_full_disk(folder.path(), words_of(command)), 3,
+        "standard output: cannot be written: No space left on device");
   }
 }
 
 TEST_F(HabitsTest, AMisspeltWordComesWithTheNearest) {
-  expect_refusal({"anaylze", "run.h5", "-o", "a.h5"},
-                 "vitrel: 'anaylze' is no command; did you mean 'analyze'?");
-  expect_refusal({"pair", "overlp", "--body", "semi_axes=2,1"},
-                 "vitrel pair: 'overlp' is no command; did you mean 'overlap'?");
-  expect_refusal({"help", "reprot"}, "vitrel: 'reprot' is no command; did you mean 'report'?");
-  expect_refusal({"help", "pair", "overlp"},
-                 "vitrel pair: 'overlp' is no command; did you mean 'overlap'?");
-  expect_refusal({"--versoin"}, "vitrel: '--versoin' is no option; did you mean '--version'?");
-  // Rather than that the output is missing.
-  expect_refusal({"run", "p.toml", "--ouput", "run.h5"},
-                 "vitrel run: '--ouput' is no option; did you mean '--output'?");
-  expect_refusal({"run", "p.toml", "--ouput=run.h5"},
-                 "vitrel run: '--ouput' is no option; did you mean '--output'?");
-  expect_refusal({"pair", "gap", "--bdoy", "semi_axes=2,1"},
-                 "vitrel pair gap: '--bdoy' is no option; did you mean '--body'?");
-  expect_refusal({"pair", "contact-time", "--rotation", "eular"},
-                 "vitrel pair contact-time: --rotation: 'eular' is none of euler, constant; did "
-                 "you mean 'euler'?");
-  expect_refusal({"export", "run.h5", "--to", "xythet"},
-                 "vitrel export: --to: 'xythet' is none of gsd, xyz, csv, xytheta, geo, vti, vtp; "
-                 "did you mean 'xytheta'?");
+  for (const auto& [command, errors] :
+       {std::pair("anaylze run.h5 -o a.h5",
+                  "vitrel: 'anaylze' is no command; did you mean 'analyze'?"),
+        {"pair overlp --body semi_axes=2,1",
+         "vitrel pair: 'overlp' is no command; did you mean 'overlap'?"},
+        {"help reprot", "vitrel: 'reprot' is no command; did you mean 'report'?"},
+        {"help pair overlp", "vitrel pair: 'overlp' is no command; did you mean 'overlap'?"},
+        {"--versoin", "vitrel: '--versoin' is no option; did you mean '--version'?"},
+        // Rather than that the output is missing.
+        {"run p.toml --ouput run.h5",
+         "vitrel run: '--ouput' is no option; did you mean '--output'?"},
+        {"run p.toml --ouput=run.h5",
+         "vitrel run: '--ouput' is no option; did you mean '--output'?"},
+        {"pair gap --bdoy semi_axes=2,1",
+         "vitrel pair gap: '--bdoy' is no option; did you mean '--body'?"},
+        {"pair contact-time --rotation eular",
+         "vitrel pair contact-time: --rotation: 'eular' is none of euler, constant; did you mean "
+         "'euler'?"},
+        {"export run.h5 --to xythet",
+         "vitrel export: --to: 'xythet' is none of gsd, xyz, csv, xytheta, geo, vti, vtp; did you "
+         "mean 'xytheta'?"}})
+    expect_refusal(command, errors);
 }
 
 TEST_F(HabitsTest, WhereNothingIsNearTheMessageSaysWhoListsWhatThereIs) {
-  expect_refusal({}, "vitrel: a command is missing; vitrel --help lists what there is");
-  expect_refusal({"pair"},
-                 "vitrel pair: a command is missing; vitrel pair --help lists what there is");
-  expect_refusal({"frobnicate"},
-                 "vitrel: 'frobnicate' is no command; vitrel --help lists what there is");
-  expect_refusal({"check", "run.h5", "-x"},
-                 "vitrel check: '-x' is no option; vitrel check --help lists what there is");
-  expect_refusal({"check", "a.h5", "b.h5"},
-                 "vitrel check: 'b.h5' is one word too many; vitrel check --help lists what there "
-                 "is");
-  expect_refusal({"pair", "gap", "a.toml", "b.toml"},
-                 "vitrel pair gap: 'b.toml' is one word too many; vitrel pair gap --help lists "
-                 "what there is");
-  expect_refusal({"run", "p.toml"},
-                 "vitrel run: --output is required; vitrel run --help lists what there is");
-  expect_refusal({"run", "p.toml", "-o"},
-                 "vitrel run: --output needs a value: --output FILE; vitrel run --help lists what "
-                 "there is");
+  for (const auto& [command, who, complaint] :
+       {std::tuple("", "vitrel", "a command is missing"),
+        {"pair", "vitrel pair", "a command is missing"},
+        {"frobnicate", "vitrel", "'frobnicate' is no command"},
+        {"check run.h5 -x", "vitrel check", "'-x' is no option"},
+        {"check a.h5 b.h5", "vitrel check", "'b.h5' is one word too many"},
+        {"pair gap a.toml b.toml", "vitrel pair gap", "'b.toml' is one word too many"},
+        {"run p.toml", "vitrel run", "--output is required"},
+        {"run p.toml -o", "vitrel run", "--output needs a value: --output FILE"}})
+    expect_refusal(command,
+                   fmt::format("{}: {}; {} --help lists what there is", who, complaint, who));
 }
 
 // ---- completion -------------------------------------------------------------------------------------
 
 /// What a command of the shell prints, which runs in that folder with the program first on PATH.
 std::string shell(const Folder& folder, const std::string& command) {
-  const std::string program = std::filesystem::path(VITREL_PROGRAM).parent_path().string();
+  const std::string program = fs::path(VITREL_PROGRAM).parent_path().string();
   const std::string whole = "cd '" + folder.path().string() + "' && PATH='" + program +
                             "':\"$PATH\" && " + command + " 2>&1";
   FILE* pipe = popen(whole.c_str(), "r");
@@ -211,7 +178,8 @@ bool is_installed(const std::string& program) {
 }
 
 /// What bash offers for the last of the words; as the shell does, `=` is a word of its own.
-std::vector<std::string> offered(const Folder& folder, const Words& words) {
+std::vector<std::string> offered(const Folder& folder, const std::string& command) {
+  const std::vector<std::string> words = words_of(command);
   std::string script = "source <(vitrel completion bash)\nCOMP_WORDS=(vitrel";
   for (const std::string& word : words) script += " \"" + word + "\"";
   script += ")\nCOMP_CWORD=" + std::to_string(words.size()) +
@@ -223,36 +191,33 @@ std::vector<std::string> offered(const Folder& folder, const Words& words) {
 TEST_F(HabitsTest, BashCompletesCommandsOptionsChoicesAndFiles) {
   folder.write("run.h5", "");
   folder.write("ru n.h5", "");
-  std::filesystem::create_directory(folder / "runs");
-  EXPECT_THAT(offered(folder, {""}), testing::UnorderedElementsAreArray(commands()));
-  EXPECT_THAT(offered(folder, {"ex"}), ElementsAre("export"));
-  EXPECT_THAT(offered(folder, {"-"}), UnorderedElementsAre("-h", "--help", "--version"));
-  EXPECT_THAT(offered(folder, {"export", "--to", ""}),
-              UnorderedElementsAre("gsd", "xyz", "csv", "xytheta", "geo", "vti", "vtp"));
-  EXPECT_THAT(offered(folder, {"export", "run.h5", "--to", "=", "g"}),
-              UnorderedElementsAre("gsd", "geo"));
-  EXPECT_THAT(offered(folder, {"export", "--to", "="}), Contains("xytheta"));
-  EXPECT_THAT(offered(folder, {"params", ""}),
-              UnorderedElementsAre("prepare", "run", "analyze", "sweep", "pair"));
-  EXPECT_THAT(offered(folder, {"help", "pre"}), ElementsAre("prepare"));
-  EXPECT_THAT(offered(folder, {"completion", ""}), UnorderedElementsAre("bash", "zsh"));
-  EXPECT_THAT(offered(folder, {"sweep", "p.toml", "--export", ""}),
-              UnorderedElementsAre("snakemake", "slurm"));
-  EXPECT_THAT(offered(folder, {"check", "ru"}), UnorderedElementsAre("run.h5", "ru n.h5", "runs"));
-  EXPECT_THAT(offered(folder, {"run", "p.toml", "--from", "run."}), ElementsAre("run.h5"));
-  EXPECT_THAT(offered(folder, {"sweep", "p.toml", "-o", "r"}), ElementsAre("runs"));
-  EXPECT_THAT(offered(folder, {"run", "--threads", ""}), IsEmpty());
-  EXPECT_THAT(offered(folder, {"pair", ""}),
-              testing::UnorderedElementsAreArray(commands({"pair"})));
-  EXPECT_THAT(offered(folder, {"pair", "ov"}), ElementsAre("overlap"));
-  EXPECT_THAT(offered(folder, {"pair", "gap", "--b"}), UnorderedElementsAre("--body", "--box"));
-  EXPECT_THAT(offered(folder, {"pair", "contact-time", "--rotation", ""}),
-              UnorderedElementsAre("euler", "constant"));
-  EXPECT_THAT(offered(folder, {"pair", "gap", "run."}), ElementsAre("run.h5"));
-  for (const Words& command : all_commands())
-    EXPECT_THAT(offered(folder, join(command, {"-"})),
+  fs::create_directory(folder / "runs");
+  EXPECT_THAT(offered(folder, "''"), testing::UnorderedElementsAreArray(commands()));
+  EXPECT_THAT(offered(folder, "export --to ="), Contains("xytheta"));
+  EXPECT_THAT(offered(folder, "pair ''"), testing::UnorderedElementsAreArray(commands("pair")));
+  const std::vector<std::pair<std::string, std::vector<std::string>>> expected = {
+      {"ex", {"export"}},
+      {"-", {"-h", "--help", "--version"}},
+      {"export --to ''", {"gsd", "xyz", "csv", "xytheta", "geo", "vti", "vtp"}},
+      {"export run.h5 --to = g", {"gsd", "geo"}},
+      {"params ''", {"prepare", "run", "analyze", "sweep", "pair"}},
+      {"help pre", {"prepare"}},
+      {"completion ''", {"bash", "zsh"}},
+      {"sweep p.toml --export ''", {"snakemake", "slurm"}},
+      {"check ru", {"run.h5", "ru n.h5", "runs"}},
+      {"run p.toml --from run.", {"run.h5"}},
+      {"sweep p.toml -o r", {"runs"}},
+      {"run --threads ''", {}},
+      {"pair ov", {"overlap"}},
+      {"pair gap --b", {"--body", "--box"}},
+      {"pair contact-time --rotation ''", {"euler", "constant"}},
+      {"pair gap run.", {"run.h5"}}};
+  for (const auto& [words, offers] : expected)
+    EXPECT_THAT(offered(folder, words), testing::UnorderedElementsAreArray(offers)) << words;
+  for (const std::string& command : all_commands())
+    EXPECT_THAT(offered(folder, command + " -"),
                 testing::UnorderedElementsAreArray(options_of(command)))
-        << full_name(command);
+        << command;
 }
 
 // Whoever has the package bash-completion gets it from there; the script is right without it.
@@ -269,18 +234,20 @@ std::string part_between(const std::string& text, const std::string& first,
 }
 
 /// The function of a command that has commands, or of the program.
-std::string zsh_function(const std::string& script, const Words& command) {
+std::string zsh_function(const std::string& script, const std::string& command) {
   std::string name = "_vitrel";
-  for (const std::string& word : command) name += "_" + word;
+  for (const std::string& word : words_of(command)) name += "_" + word;
   return part_between(script, "\n" + name + "() {", "\n}");
 }
 
 TEST_F(HabitsTest, TheCompletionOfZshNamesAllCommandsAndOptions) {
-  const std::string script = output_of({"completion", "zsh"});
+  const std::string script = output_of("completion zsh");
   EXPECT_THAT(script, StartsWith("#compdef vitrel\n"));
-  for (const Words& command : all_commands()) {
-    const std::string& name = command.back();
-    const std::string parent = zsh_function(script, {command.begin(), command.end() - 1});
+  for (const std::string& command : all_commands()) {
+    const std::size_t blank = command.rfind(' ');  // none in most commands, npos + 1 is 0
+    const std::string name = command.substr(blank + 1);
+    const std::string parent =
+        zsh_function(script, blank == command.npos ? "" : command.substr(0, blank));
     EXPECT_THAT(parent, HasSubstr("'" + name + ":"));
     const std::string specifications =
         commands(command).empty() ? part_between(parent, "    " + name + ") _arguments", ";;")
@@ -288,13 +255,13 @@ TEST_F(HabitsTest, TheCompletionOfZshNamesAllCommandsAndOptions) {
     for (const std::string& option : options_of(command)) {
       const bool is_there = specifications.find(")" + option) != specifications.npos ||
                             specifications.find("*" + option) != specifications.npos;
-      EXPECT_TRUE(is_there) << full_name(command) << " " << option;
+      EXPECT_TRUE(is_there) << command << " " << option;
     }
   }
-  EXPECT_THAT(script, HasSubstr("    pair) _vitrel_pair ;;"));
-  EXPECT_THAT(script, HasSubstr(":FORMAT:(gsd xyz csv xytheta geo vti vtp)'"));
-  EXPECT_THAT(script, HasSubstr("':params:_files'"));
-  EXPECT_THAT(script, HasSubstr("Run all jobs of [sweep]"));
+  for (const char* part :
+       {"    pair) _vitrel_pair ;;", ":FORMAT:(gsd xyz csv xytheta geo vti vtp)'",
+        "':params:_files'", "Run all jobs of [sweep]"})
+    EXPECT_THAT(script, HasSubstr(part));
   folder.write("_vitrel", script);
   if (is_installed("zsh")) {
     EXPECT_EQ(shell(folder, "zsh -n _vitrel"), "");
@@ -311,7 +278,7 @@ std::string bold_in_manual(const std::string& text) {
 }
 
 TEST_F(HabitsTest, TheManualPageHasEveryCommandWithItsOptions) {
-  const std::string page = output_of({"man"});
+  const std::string page = output_of("man");
   EXPECT_THAT(page, StartsWith(".TH VITREL 1 "));
   EXPECT_THAT(page, HasSubstr("\n.SH NAME\nvitrel \\- simulation of hard anisotropic particles"));
   std::map<std::string, std::string> sections;
@@ -327,20 +294,20 @@ TEST_F(HabitsTest, TheManualPageHasEveryCommandWithItsOptions) {
     if (request == ".SS") current = line;
     sections[current] += line + '\n';
   }
-  for (const Words& command : all_commands()) {
+  for (const std::string& command : all_commands()) {
     const auto found = std::ranges::find_if(sections, [&](const auto& section) {
-      return section.first.starts_with(".SS " + bold_in_manual(full_name(command)));
+      return section.first.starts_with(".SS " + bold_in_manual("vitrel " + command));
     });
-    ASSERT_NE(found, sections.end()) << full_name(command);
+    ASSERT_NE(found, sections.end()) << command;
     for (const std::string& option : options_of(command))
       if (option != "-h" && option != "--help") {
-        EXPECT_THAT(found->second, HasSubstr(bold_in_manual(option))) << full_name(command);
+        EXPECT_THAT(found->second, HasSubstr(bold_in_manual(option))) << command;
       }
   }
 }
 
 TEST_F(HabitsTest, TheManualPageIsShown) {
-  folder.write("vitrel.1", output_of({"man"}));
+  folder.write("vitrel.1", output_of("man"));
   const std::vector<std::pair<std::string, std::string>> viewers = {
       {"man", "MANWIDTH=100 man -l vitrel.1"},
       {"groff", "groff -man -ww -Tascii -P-c vitrel.1"},
@@ -349,7 +316,7 @@ TEST_F(HabitsTest, TheManualPageIsShown) {
     if (!is_installed(viewer)) continue;
     // On paper terminals bold is a letter over itself.
     const std::string shown = shell(folder, command + " 2>&1 | sed 's/.\\x08//g'");
-    for (const Words& name : all_commands()) EXPECT_THAT(shown, HasSubstr(full_name(name)));
+    for (const std::string& name : all_commands()) EXPECT_THAT(shown, HasSubstr("vitrel " + name));
     EXPECT_THAT(shown, Not(HasSubstr("warning")));
     EXPECT_THAT(shown, Not(HasSubstr("\\")));
   }
@@ -361,21 +328,18 @@ constexpr const char* red = "\033[1;31m";
 constexpr const char* bold = "\033[1m";
 
 TEST_F(HabitsTest, ErrorsAreRedOnATerminal) {
-  const Words missing = {"check", "nothere.h5"};
-  const Outcome shown = run_on_terminal(folder.path(), missing);
+  const Outcome shown = run_on_terminal(folder.path(), {"check", "nothere.h5"});
   EXPECT_EQ(shown.code, 3);
   EXPECT_THAT(shown.output, HasSubstr(red + std::string("vitrel check:\033[0m nothere.h5: ")));
-  EXPECT_THAT(run_on_terminal(folder.path(), {"anaylze"}).output,
+  EXPECT_THAT(shown_on_terminal("anaylze"),
               StartsWith(red + std::string("vitrel:\033[0m 'anaylze' is no command")));
-  EXPECT_THAT(run_on_terminal(folder.path(), {"help"}).output,
-              HasSubstr(bold + std::string("Commands\033[0m:")));
+  EXPECT_THAT(shown_on_terminal("help"), HasSubstr(bold + std::string("Commands\033[0m:")));
 }
 
 TEST_F(HabitsTest, NoColourWhereNobodySeesItOrWantsIt) {
-  for (const Words& words :
-       std::vector<Words>{{"check", "nothere.h5"}, {"anaylze"}, {"help", "run"}}) {
+  for (const char* command : {"check nothere.h5", "anaylze", "help run"}) {
     const auto shown = [&](const std::map<std::string, std::string>& environment) {
-      return run_on_terminal(folder.path(), words, environment).output;
+      return shown_on_terminal(command, environment);
     };
     EXPECT_THAT(shown({}), HasSubstr("\033["));
     // no-color.org: an empty value does not count.
@@ -383,22 +347,20 @@ TEST_F(HabitsTest, NoColourWhereNobodySeesItOrWantsIt) {
     EXPECT_THAT(shown({{"NO_COLOR", "1"}}), Not(HasSubstr("\033[")));
     EXPECT_THAT(shown({{"TERM", "dumb"}}), Not(HasSubstr("\033[")));
     EXPECT_THAT(shown({{"TERM", ""}}), Not(HasSubstr("\033[")));
-    const Outcome piped = run(folder.path(), words);
+    const Outcome piped = folder.run(command);
     EXPECT_THAT(piped.output + piped.errors, Not(HasSubstr("\033[")));
   }
 }
 
 TEST_F(HabitsTest, OverlapsAreRedOnATerminal) {
-  folder.write("p.toml", small_system);
-  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
+  folder.succeed("prepare p.toml -o state.h5 -q");
   Configuration2 state = read_state(folder / "state.h5");
-  EXPECT_THAT(run_on_terminal(folder.path(), {"check", "state.h5"}).output, Not(HasSubstr(red)));
+  EXPECT_THAT(shown_on_terminal("check state.h5"), Not(HasSubstr(red)));
   state.position[7] = state.position[3];
   write_state(folder / "overlap.h5", state, Provenance{});
-  EXPECT_THAT(run_on_terminal(folder.path(), {"check", "overlap.h5"}).output,
+  EXPECT_THAT(shown_on_terminal("check overlap.h5"),
               testing::ContainsRegex("overlaps +\033\\[1;31m[1-9]"));
-  EXPECT_THAT(run(folder.path(), {"check", "overlap.h5"}).output,
-              testing::ContainsRegex("overlaps +[1-9]"));
+  EXPECT_THAT(folder.run("check overlap.h5").output, testing::ContainsRegex("overlaps +[1-9]"));
 }
 
 // ---- tables -----------------------------------------------------------------------------------------
@@ -417,7 +379,7 @@ TEST_F(HabitsTest, TheOutputOfPreparationsFitsEightyColumns) {
                                                        {"jammed", "rattlers"},
                                                        {"space", "orientation tensor ⟨w wᵀ⟩"}};
   for (const auto& [name, row] : expected) {
-    const Outcome outcome = run(folder.path(), {"prepare", name + ".toml", "-o", name + ".h5"});
+    const Outcome outcome = folder.run(fmt::format("prepare {}.toml -o {}.h5", name, name));
     ASSERT_EQ(outcome.code, 0) << outcome.errors;
     EXPECT_THAT(outcome.output, HasSubstr("\n" + row));
     for (const std::string& text : {outcome.output, outcome.errors})
@@ -428,14 +390,13 @@ TEST_F(HabitsTest, TheOutputOfPreparationsFitsEightyColumns) {
 // ---- refusals ---------------------------------------------------------------------------------------
 
 TEST_F(HabitsTest, AMissingStartIsNamedRatherThanTheOutput) {
-  folder.write("p.toml", small_system);
   folder.write("existing.h5", "");
-  const Words words = {"run", "p.toml", "--from", "nothere.h5", "-o", "existing.h5", "-q"};
-  const Outcome missing = run(folder.path(), words);
+  const std::string command = "run p.toml --from nothere.h5 -o existing.h5 -q";
+  const Outcome missing = folder.run(command);
   EXPECT_EQ(missing.code, 3);
   EXPECT_THAT(missing.errors, StartsWith("vitrel run: nothere.h5: cannot open the file"));
-  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "nothere.h5", "-q"}).code, 0);
-  const Outcome in_the_way = run(folder.path(), words);
+  folder.succeed("prepare p.toml -o nothere.h5 -q");
+  const Outcome in_the_way = folder.run(command);
   EXPECT_EQ(in_the_way.code, 2);
   EXPECT_THAT(in_the_way.errors, StartsWith("vitrel run: existing.h5: exists, but has no check"));
   EXPECT_EQ(folder.read("existing.h5"), "");
@@ -448,7 +409,7 @@ TEST_F(HabitsTest, AMixtureMayBeDenserThanEqualDisks) {
                                "\n[[species]]\nname = \"large\"\naspect_ratio = 1\nfraction = 0.5\n"
                                "[[species]]\nname = \"small\"\naspect_ratio = 1\nfraction = 0.5\n" +
                                small_disks);
-    return run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--dry-run"});
+    return folder.run("run p.toml -o run.h5 --dry-run");
   };
   EXPECT_EQ(plan("0.91", "size = 0.2\n").code, 0);
   EXPECT_THAT(
@@ -462,9 +423,8 @@ TEST_F(HabitsTest, AMixtureMayBeDenserThanEqualDisks) {
 // ---- plain text of t, x, y and θ ----------------------------------------------------------------------
 
 TEST_F(HabitsTest, ARunBecomesALinePerFrame) {
-  folder.write("p.toml", small_system);
-  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}).code, 0);
-  ASSERT_EQ(run(folder.path(), {"export", "run.h5", "--to", "xytheta", "-q"}).code, 0);
+  folder.succeed("run p.toml -o run.h5 -q");
+  folder.succeed("export run.h5 --to xytheta -q");
   const std::vector<std::string> lines = lines_of(folder.read("run.dat"));
   const TrajectoryReader reader(folder / "run.h5");
   ASSERT_EQ(lines.size(), reader.frames());
@@ -481,8 +441,7 @@ TEST_F(HabitsTest, ARunBecomesALinePerFrame) {
   const Configuration2 last = reader.read(reader.frames() - 1);
   EXPECT_TRUE(std::ranges::any_of(last.image, [](const auto& image) { return image.any(); }));
   // Its former name.
-  ASSERT_EQ(run(folder.path(), {"export", "run.h5", "--to", "thesis", "-o", "former", "-q"}).code,
-            0);
+  folder.succeed("export run.h5 --to thesis -o former -q");
   EXPECT_EQ(folder.read("former"), folder.read("run.dat"));
 }
 
@@ -490,11 +449,11 @@ TEST_F(HabitsTest, ALinePerFrameIsForThePlane) {
   folder.write("p.toml",
                "[system]\ndimension = 3\nparticles = 5\npacking_fraction = 0.01\n[[species]]\n"
                "aspect_ratio = 1\n[[prepare.stage]]\n");
-  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
-  expect_refusal({"export", "state.h5", "--to", "xytheta", "-q"},
+  folder.succeed("prepare p.toml -o state.h5 -q");
+  expect_refusal("export state.h5 --to xytheta -q",
                  "vitrel export: state.h5: is three-dimensional, for which --to takes gsd, xyz, "
                  "csv, geo, vti, vtp, but not xytheta");
-  EXPECT_FALSE(std::filesystem::exists(folder / "state.dat"));
+  EXPECT_FALSE(fs::exists(folder / "state.dat"));
 }
 
 }  // namespace

@@ -1,32 +1,22 @@
 // Runs that are killed, stopped or run out of disk, and continued by the same command.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mount.h>
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
 #include "core/io/checked.h"
 #include "core/random/stream.h"
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
 #include "tests/support/partial_files.h"
 
 namespace vitrel {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::IsEmpty;
-using testing_program::differing_datasets;
-using testing_program::Folder;
-using testing_program::Outcome;
-using testing_program::run;
-using testing_program::run_and_signal;
 
 // A checkpoint at the end of every block, and many frames between two of them.
 const std::string system_text =
@@ -46,14 +36,14 @@ struct Kind {
 const Kind newtonian{"newtonian", "newtonian"}, brownian{"brownian", "brownian"},
     soft{"soft", "brownian", soft_text};
 
-std::vector<std::string> run_arguments(const std::string& output, const Kind& kind) {
-  return {"run", "p.toml", "-o", output, "-q", "--set", "dynamics.kind=" + kind.dynamics};
+std::string run_command(const std::string& output, const Kind& kind) {
+  return "run p.toml -q --set dynamics.kind=" + kind.dynamics + " -o " + output;
 }
 
 /// Runs to the end without interruption and returns how long that took.
 milliseconds run_uninterrupted(const Folder& folder, const std::string& output, const Kind& kind) {
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(run(folder.path(), run_arguments(output, kind)).code, 0);
+  folder.succeed(run_command(output, kind));
   return std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - start);
 }
 
@@ -72,10 +62,8 @@ void expect_same_datasets_despite(const std::vector<int>& signals, const Kind& k
   int round = 0;
   const auto output = [&round] { return "interrupted_" + std::to_string(round) + ".h5"; };
   const auto expect_same = [&] {
-    EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / output()), IsEmpty());
-    EXPECT_THAT(differing_datasets(folder / "whole.h5.correlations.h5",
-                                   folder / (output() + ".correlations.h5")),
-                IsEmpty());
+    folder.expect_same_datasets("whole.h5", output());
+    folder.expect_same_datasets("whole.h5.correlations.h5", output() + ".correlations.h5");
   };
   std::size_t delivered = 0;
   for (std::size_t starts = 0; delivered < signals.size(); ++starts) {
@@ -84,7 +72,7 @@ void expect_same_datasets_despite(const std::vector<int>& signals, const Kind& k
     const milliseconds delay(
         static_cast<int>(moments.uniform(earliest, latest) * static_cast<double>(whole.count())));
     const Outcome outcome =
-        run_and_signal(folder.path(), run_arguments(output(), kind), delay, signal);
+        run_and_signal(folder.path(), words_of(run_command(output(), kind)), delay, signal);
     if (outcome.code == (signal == SIGKILL ? 128 + SIGKILL : 5)) {
       ++delivered;
     } else {
@@ -93,8 +81,7 @@ void expect_same_datasets_despite(const std::vector<int>& signals, const Kind& k
       ++round;
     }
   }
-  const Outcome last = run(folder.path(), run_arguments(output(), kind));
-  ASSERT_EQ(last.code, 0) << last.errors;
+  folder.succeed(run_command(output(), kind));
   expect_same();
 }
 
@@ -111,10 +98,10 @@ TEST_P(Interruption, StoppedBySignalItExitsWithFiveAndContinues) {
 }
 
 /// True once a file has been written so many times.
-std::function<bool()> written(const std::filesystem::path& file, int times) {
+std::function<bool()> written(const fs::path& file, int times) {
   const auto time_of = [file] {
     std::error_code none;
-    return std::filesystem::last_write_time(file, none);
+    return fs::last_write_time(file, none);
   };
   return [=, last = time_of(), left = times]() mutable {
     const auto now = time_of();
@@ -126,9 +113,8 @@ std::function<bool()> written(const std::filesystem::path& file, int times) {
 /// The same for a preparation, every stage of which is killed some time, and stopped: now and then after a checkpoint,
 /// however fast the machine.
 TEST(InterruptedPreparation, KilledAndStoppedItsStateIsTheSame) {
-  const Folder folder("kill_prepare");
-  folder.write(
-      "p.toml",
+  const Folder folder(
+      "kill_prepare",
       "[system]\nparticles = 200\npacking_fraction = 0.75\n[prepare]\nquality_sweeps = 50\n"
       "[[prepare.stage]]\nmethod = \"insert\"\n"
       "[[prepare.stage]]\nmethod = \"swell\"\npacking_fraction = 0.6\n"
@@ -137,113 +123,92 @@ TEST(InterruptedPreparation, KilledAndStoppedItsStateIsTheSame) {
       "[[prepare.stage]]\nmethod = \"grow\"\n"
       "[[prepare.stage]]\nmethod = \"sample\"\nsweeps = 500\n"
       "[output]\ncheckpoint_interval = 0.01\n");
-  const auto prepare = [](const std::string& output) {
-    return std::vector<std::string>{"prepare", "p.toml", "-o", output, "-q"};
-  };
-  ASSERT_EQ(run(folder.path(), prepare("whole.h5")).code, 0);
+  folder.succeed("prepare p.toml -o whole.h5 -q");
+  const std::string prepare_parts = "prepare p.toml -o parts.h5 -q";
   int interrupted = 0;
   for (int round = 0; round < 12; ++round) {
-    const int code = run_and_signal(folder.path(), prepare("parts.h5"),
+    const int code = run_and_signal(folder.path(), words_of(prepare_parts),
                                     written(folder / "parts.h5.preparation", 1 + round % 4),
                                     round % 3 == 0 ? SIGTERM : SIGKILL)
                          .code;
-    if (std::filesystem::exists(folder / "parts.h5")) break;
+    if (fs::exists(folder / "parts.h5")) break;
     EXPECT_THAT(code, testing::AnyOf(5, 128 + SIGKILL));
     ++interrupted;
   }
   EXPECT_GE(interrupted, 3);
-  if (!std::filesystem::exists(folder / "parts.h5")) {
-    const Outcome last = run(folder.path(), prepare("parts.h5"));
-    ASSERT_EQ(last.code, 0) << last.errors;
-  }
-  EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / "parts.h5"), IsEmpty());
+  if (!fs::exists(folder / "parts.h5")) folder.succeed(prepare_parts);
+  folder.expect_same_datasets("whole.h5", "parts.h5");
 }
 
 INSTANTIATE_TEST_SUITE_P(Dynamics, Interruption, testing::Values(newtonian, brownian, soft),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 TEST(DifferingDatasets, SeesASingleChangedSeed) {
-  const Folder folder("different");
-  folder.write("p.toml", system_text);
+  const Folder folder("different", system_text);
   for (const std::string seed : {"1", "2"})
-    ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", seed + ".h5", "-q", "--set",
-                                  "dynamics.duration=1", "--seed", seed})
-                  .code,
-              0);
+    folder.succeed(
+        fmt::format("run p.toml -o {}.h5 -q --set dynamics.duration=1 --seed {}", seed, seed));
   EXPECT_THAT(differing_datasets(folder / "1.h5", folder / "2.h5"),
               testing::Contains("/particles/all/position/value"));
 }
 
 // The children of a killed sweep die with it, and the same command finishes the sweep.
 TEST(Sweep, KilledAndContinuedItIsTheSame) {
-  const Folder folder("kill_sweep");
-  folder.write("p.toml", system_text + "[sweep.grid]\n\"system.seed\" = [1, 2, 3]\n");
-  const auto sweep = [](const std::string& output) {
-    return std::vector<std::string>{"sweep", "p.toml", "-o", output, "-j", "2", "-q"};
-  };
+  const Folder folder("kill_sweep", system_text + "[sweep.grid]\n\"system.seed\" = [1, 2, 3]\n");
+  const std::string sweep = "sweep p.toml -j 2 -q -o ";
   const auto start = std::chrono::steady_clock::now();
-  ASSERT_EQ(run(folder.path(), sweep("whole")).code, 0);
+  folder.succeed(sweep + "whole");
   const auto whole =
       std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - start);
   for (const double moment : {0.15, 0.3, 0.45})
-    run_and_signal(folder.path(), sweep("killed"),
+    run_and_signal(folder.path(), words_of(sweep + "killed"),
                    milliseconds(static_cast<int>(moment * whole.count())), SIGKILL);
-  const Outcome last = run(folder.path(), sweep("killed"));
-  ASSERT_EQ(last.code, 0) << last.errors;
-  for (const std::string job : {"seed-1", "seed-2", "seed-3"}) {
-    const std::string file = "/" + job + "/run.h5";
-    EXPECT_THAT(differing_datasets(folder / ("whole" + file), folder / ("killed" + file)),
-                IsEmpty());
-  }
+  folder.succeed(sweep + "killed");
+  for (const std::string file : {"/seed-1/run.h5", "/seed-2/run.h5", "/seed-3/run.h5"})
+    folder.expect_same_datasets("whole" + file, "killed" + file);
 }
 
 // An analysis that takes long: a stop comes as soon as it has begun.
 TEST(Sweep, StoppedDuringTheAnalysisItContinues) {
-  const Folder folder("stop_analysis");
-  folder.write("p.toml",
-               system_text + "[analysis.structure]\nframes = 600\nwave_number_max = 150\n");
-  const std::vector<std::string> sweep = {"sweep", "p.toml", "-o", "sweep"};
-  ASSERT_EQ(run(folder.path(), sweep).code, 0);
+  const Folder folder("stop_analysis",
+                      system_text + "[analysis.structure]\nframes = 600\nwave_number_max = 150\n");
+  folder.succeed("sweep p.toml -o sweep");
   const auto job = folder / "sweep/job";
-  std::filesystem::copy_file(job / "results.h5", folder / "before.h5");
-  for (const char* file : {"done.json", "analyze.json", "results.h5"})
-    std::filesystem::remove(job / file);
+  fs::copy_file(job / "results.h5", folder / "before.h5");
+  for (const char* file : {"done.json", "analyze.json", "results.h5"}) fs::remove(job / file);
   const auto begins = [&job] {
     return std::ranges::any_of(partial_files(job), [](const std::string& name) {
       return name.starts_with("analyze.json");
     });
   };
   for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
-    const Outcome stopped = run_and_signal(folder.path(), sweep, begins, signal);
+    const Outcome stopped =
+        run_and_signal(folder.path(), words_of("sweep p.toml -o sweep"), begins, signal);
     EXPECT_EQ(stopped.code, 5);
-    EXPECT_THAT(stopped.errors, testing::AllOf(testing::HasSubstr("the same command continues"),
-                                               testing::Not(testing::HasSubstr("failed"))));
-    EXPECT_FALSE(std::filesystem::exists(job / "done.json"));
+    EXPECT_THAT(stopped.errors,
+                AllOf(HasSubstr("the same command continues"), Not(HasSubstr("failed"))));
+    EXPECT_FALSE(fs::exists(job / "done.json"));
     EXPECT_THAT(partial_files(job), IsEmpty());
   }
-  ASSERT_EQ(run(folder.path(), sweep).code, 0);
-  EXPECT_THAT(differing_datasets(folder / "before.h5", job / "results.h5"), IsEmpty());
+  folder.succeed("sweep p.toml -o sweep");
+  folder.expect_same_datasets("before.h5", "sweep/job/results.h5");
 }
 
 // A real full disk: a tmpfs too small for the run. The frames written stay readable, and with room made
 // the same command continues to the same datasets. Mounting needs rights that not every machine gives.
 TEST(FullDisk, ExitsWithThreeLosesNothingAndContinues) {
-  const Folder folder("full_disk");
-  folder.write("p.toml", system_text);
-  std::filesystem::create_directory(folder / "disk");
+  const Folder folder("full_disk", system_text);
+  fs::create_directory(folder / "disk");
   if (mount("tmpfs", (folder / "disk").c_str(), "tmpfs", 0, "size=800k") != 0)
     GTEST_SKIP() << "mounting a tmpfs needs root";
   run_uninterrupted(folder, "whole.h5", newtonian);
-  const Outcome full = run(folder.path(), run_arguments("disk/run.h5", newtonian));
+  const Outcome full = folder.run(run_command("disk/run.h5", newtonian));
   EXPECT_EQ(full.code, 3);
-  EXPECT_THAT(full.errors, testing::HasSubstr("disk/run.h5"));
-  const Outcome checked = run(folder.path(), {"check", "disk/run.h5", "--json", "-q"});
-  EXPECT_EQ(checked.code, 0) << checked.errors;
-  EXPECT_GT(nlohmann::json::parse(checked.output, nullptr, false).value("frames", 0), 10);
+  EXPECT_THAT(full.errors, HasSubstr("disk/run.h5"));
+  EXPECT_GT(folder.summary("check disk/run.h5").value("frames", 0), 10);
   EXPECT_EQ(mount("tmpfs", (folder / "disk").c_str(), "tmpfs", MS_REMOUNT, "size=100m"), 0);
-  const Outcome continued = run(folder.path(), run_arguments("disk/run.h5", newtonian));
-  EXPECT_EQ(continued.code, 0) << continued.errors;
-  EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / "disk/run.h5"), IsEmpty());
+  folder.succeed(run_command("disk/run.h5", newtonian));
+  folder.expect_same_datasets("whole.h5", "disk/run.h5");
   umount((folder / "disk").c_str());
 }
 

@@ -1,25 +1,12 @@
 // Runs and sweeps that are made longer: the result is that of a run of the whole length.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
 
 #include "core/io/h5md.h"
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
 
 namespace vitrel {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing_program::differing_datasets;
-using testing_program::expect_refusal;
-using testing_program::Folder;
-using testing_program::Outcome;
-using testing_program::run;
-using testing_program::succeed;
 using Json = nlohmann::json;
-namespace fs = std::filesystem;
 
 const std::string in_plane =
     "[system]\nparticles = 30\n[dynamics]\nequilibration = 1\n"
@@ -39,8 +26,8 @@ const std::string soft =
     "damping = \"300 kg/s\"\ncoefficients = \"integrated\"\n"
     "[output]\nsamples = { spacing = \"linear\", interval = 0.9 }\n";
 
-std::vector<std::string> command(const std::string& output, const std::string& duration) {
-  return {"run", "p.toml", "-o", output, "-q", "--set", "dynamics.duration=" + duration};
+std::string command(const std::string& output, const std::string& duration) {
+  return "run p.toml -q --set dynamics.duration=" + duration + " -o " + output;
 }
 
 struct Scene {
@@ -57,16 +44,14 @@ TEST_P(LongerRun, IsTheRunOfTheWholeLength) {
     folder.write("p.toml", GetParam().parameters + "checkpoint_interval = " + interval + "\n");
     const std::string whole = std::string("whole") + interval + ".h5";
     const std::string parts = std::string("parts") + interval + ".h5";
-    succeed(folder, command(whole, "40"));
+    folder.succeed(command(whole, "40"));
     for (const char* duration : {"5.3", "5.3", "11", "11.01", "40"})
-      succeed(folder, command(parts, duration));
-    EXPECT_THAT(differing_datasets(folder / whole, folder / parts), IsEmpty());
+      folder.succeed(command(parts, duration));
+    folder.expect_same_datasets(whole, parts);
     EXPECT_THAT(TrajectoryReader(folder / parts).provenance().parameters,
                 HasSubstr("duration = 40.0"));
-    if (!fs::exists(folder / (whole + ".correlations.h5"))) continue;
-    EXPECT_THAT(differing_datasets(folder / (whole + ".correlations.h5"),
-                                   folder / (parts + ".correlations.h5")),
-                IsEmpty());
+    if (fs::exists(folder / (whole + ".correlations.h5")))
+      folder.expect_same_datasets(whole + ".correlations.h5", parts + ".correlations.h5");
   }
 }
 
@@ -79,70 +64,56 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& scene) { return scene.param.name; });
 
 TEST(LongerRun, KeepsWhatItsBeginningChose) {
-  const Folder folder("longer_defaults");
-  folder.write("p.toml",
-               "[system]\nparticles = 30\n[dynamics]\nequilibration = 1\n"
-               "[output]\ncorrelations = { interval = 0.5 }\n");
-  succeed(folder, command("run.h5", "30"));
-  succeed(folder, command("run.h5", "60"));
+  const Folder folder("longer_defaults",
+                      "[system]\nparticles = 30\n[dynamics]\nequilibration = 1\n"
+                      "[output]\ncorrelations = { interval = 0.5 }\n");
+  folder.succeed(command("run.h5", "30"));
+  folder.succeed(command("run.h5", "60"));
   const TrajectoryReader reader(folder / "run.h5");
   EXPECT_EQ(reader.frames(), 401u);
   EXPECT_THAT(reader.provenance().parameters,
-              testing::AllOf(HasSubstr("interval = 0.15"), HasSubstr("longest_lag = 15.0")));
+              AllOf(HasSubstr("interval = 0.15"), HasSubstr("longest_lag = 15.0")));
 }
 
 TEST(LongerRun, NothingElseMayChange) {
-  const Folder folder("longer_refused");
-  folder.write("p.toml", in_plane);
-  succeed(folder, command("run.h5", "10"));
-  expect_refusal(run(folder.path(), command("run.h5", "9")), 2,
-                 "begun with dynamics.duration = 10.0, but now it is 9.0");
-  std::vector<std::string> other = command("run.h5", "20");
-  other.insert(other.end(), {"--set", "output.samples.interval=0.5"});
-  expect_refusal(run(folder.path(), other), 2, "begun with output.samples.interval = 0.7");
-  std::vector<std::string> dry = command("run.h5", "20");
-  dry.push_back("--dry-run");
-  EXPECT_THAT(run(folder.path(), dry).output, HasSubstr("the checkpoint at "));
+  const Folder folder("longer_refused", in_plane);
+  folder.succeed(command("run.h5", "10"));
+  folder.expect_refusals(
+      {{command("run.h5", "9"), 2, "begun with dynamics.duration = 10.0, but now it is 9.0"},
+       {command("run.h5", "20") + " --set output.samples.interval=0.5", 2,
+        "begun with output.samples.interval = 0.7"}});
+  EXPECT_THAT(folder.run(command("run.h5", "20") + " --dry-run").output,
+              HasSubstr("the checkpoint at "));
   // Without what it would start from it says so, and is left alone.
   const std::string before = folder.read("run.h5");
   fs::remove(folder / "run.h5.checkpoint.previous");
-  expect_refusal(run(folder.path(), command("run.h5", "20")), 3,
-                 "run.h5.checkpoint.previous: cannot open the file");
+  folder.expect_refusal(command("run.h5", "20"), 3,
+                        "run.h5.checkpoint.previous: cannot open the file");
   EXPECT_EQ(folder.read("run.h5"), before);
-  EXPECT_EQ(run(folder.path(), command("run.h5", "10")).code, 0);
+  folder.succeed(command("run.h5", "10"));
 }
 
 TEST(LongerRun, AFinishedSweepGrowsToo) {
-  const Folder folder("longer_sweep");
-  folder.write("p.toml", in_plane + "[sweep.grid]\n\"system.seed\" = [1, 2]\n");
-  const auto sweep = [&](const std::string& name, const std::string& duration) {
-    succeed(folder,
-            {"sweep", "p.toml", "-o", name, "-q", "--set", "dynamics.duration=" + duration});
-  };
-  sweep("parts", "10");
-  sweep("parts", "25");
-  sweep("whole", "25");
-  for (const std::string file : {"seed-1/run.h5", "seed-2/run.h5", "seed-1/results.h5"})
-    EXPECT_THAT(differing_datasets(folder / ("whole/" + file), folder / ("parts/" + file)),
-                IsEmpty())
-        << file;
+  const Folder folder("longer_sweep", in_plane + "[sweep.grid]\n\"system.seed\" = [1, 2]\n");
+  const std::string parts = "sweep p.toml -o parts -q --set dynamics.duration=";
+  folder.succeed(parts + "10");
+  folder.succeed(parts + "25");
+  folder.succeed("sweep p.toml -o whole -q --set dynamics.duration=25");
+  for (const std::string file : {"/seed-1/run.h5", "/seed-2/run.h5", "/seed-1/results.h5"})
+    folder.expect_same_datasets("whole" + file, "parts" + file);
   EXPECT_EQ(Json::parse(folder.read("parts/seed-1/done.json"))["run"]["simulated_time"], 26);
-  expect_refusal(
-      run(folder.path(), {"sweep", "p.toml", "-o", "parts", "-q", "--set", "dynamics.duration=20"}),
-      2, "begun with dynamics.duration = 25.0, but now it is 20.0");
+  folder.expect_refusal(parts + "20", 2, "begun with dynamics.duration = 25.0, but now it is 20.0");
 }
 
 // A run that is stopped while it equilibrates.
 TEST(LongerRun, TheEquilibrationIsCalledSo) {
-  const Folder folder("equilibration");
-  folder.write("p.toml", in_plane);
-  std::vector<std::string> stopped = command("run.h5", "10");
-  stopped.insert(stopped.end(), {"--set", "dynamics.equilibration=1e5", "--wall-time", "1e-6"});
-  succeed(folder, {"prepare", "p.toml", "-o", "state.h5", "-q"});
-  stopped.insert(stopped.end(), {"--from", "state.h5"});
-  ASSERT_EQ(run(folder.path(), stopped).code, 5);
-  stopped.erase(std::find(stopped.begin(), stopped.end(), "-q"));
-  const Outcome again = run(folder.path(), stopped);
+  const Folder folder("equilibration", in_plane);
+  folder.succeed("prepare p.toml -o state.h5 -q");
+  const std::string stopped =
+      "run p.toml -o run.h5 --from state.h5 --wall-time 1e-6 --set dynamics.duration=10 "
+      "--set dynamics.equilibration=1e5";
+  ASSERT_EQ(folder.run(stopped + " -q").code, 5);
+  const Outcome again = folder.run(stopped);
   EXPECT_EQ(again.code, 5);
   EXPECT_THAT(again.errors, testing::ContainsRegex(
                                 "continuing at time [0-9.e+]+ of 100000 of the equilibration"));

@@ -11,6 +11,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -149,22 +150,21 @@ void expect_refusal(const Outcome& outcome, int code, const std::string& part) {
   EXPECT_EQ(outcome.errors.find('\n', last_line), outcome.errors.size() - 1) << outcome.errors;
 }
 
-std::string succeed(const Folder& folder, const std::vector<std::string>& arguments) {
-  const Outcome outcome = run(folder.path(), arguments);
-  EXPECT_EQ(outcome.code, 0) << testing::PrintToString(arguments) << outcome.errors;
-  return outcome.output;
-}
-
-nlohmann::json summary_of(const Folder& folder, std::vector<std::string> arguments) {
-  arguments.insert(arguments.end(), {"--json", "-q"});
-  const std::string output = succeed(folder, arguments);
-  return output.empty() ? nlohmann::json() : nlohmann::json::parse(output);
+std::vector<std::string> words_of(const std::string& command) {
+  std::istringstream stream(command);
+  std::vector<std::string> words;
+  for (std::string word; stream >> std::quoted(word, '\'', '\0');) words.push_back(word);
+  return words;
 }
 
 Folder::Folder(const std::string& name)
     : path_(fs::path(::testing::TempDir()) / ("vitrel_" + name + "_" + std::to_string(getpid()))) {
   fs::remove_all(path_);
   fs::create_directories(path_);
+}
+
+Folder::Folder(const std::string& name, const std::string& parameters) : Folder(name) {
+  write("p.toml", parameters);
 }
 
 Folder::~Folder() {
@@ -179,6 +179,45 @@ void Folder::write(const std::string& name, const std::string& text) const {
 std::string Folder::read(const std::string& name) const {
   std::ifstream stream(path_ / name);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+Outcome Folder::run(const std::string& command) const {
+  return testing_program::run(path_, words_of(command));
+}
+
+std::string Folder::succeed(const std::string& command) const {
+  const Outcome outcome = run(command);
+  EXPECT_EQ(outcome.code, 0) << command << '\n' << outcome.errors;
+  return outcome.output;
+}
+
+nlohmann::json Folder::summary(const std::string& command) const {
+  const std::string output = succeed(command + " --json -q");
+  return output.empty() ? nlohmann::json() : nlohmann::json::parse(output);
+}
+
+Outcome Folder::run_with_file_limit(std::uint64_t bytes, const std::string& command) const {
+  rlimit before{};
+  checked(getrlimit(RLIMIT_FSIZE, &before), "getrlimit");
+  const rlimit limit{bytes, before.rlim_max};
+  checked(setrlimit(RLIMIT_FSIZE, &limit), "setrlimit");
+  const Outcome outcome = run(command);
+  checked(setrlimit(RLIMIT_FSIZE, &before), "setrlimit");
+  return outcome;
+}
+
+void Folder::expect_refusal(const std::string& command, int code, const std::string& part) const {
+  SCOPED_TRACE(command);
+  testing_program::expect_refusal(run(command), code, part);
+}
+
+void Folder::expect_refusals(const std::vector<Refusal>& refusals) const {
+  for (const auto& [command, code, part] : refusals) expect_refusal(command, code, part);
+}
+
+void Folder::expect_same_datasets(const std::string& first, const std::string& second) const {
+  EXPECT_THAT(differing_datasets(path_ / first, path_ / second), ::testing::IsEmpty())
+      << first << ", " << second;
 }
 
 Datasets all_datasets(const fs::path& file) {

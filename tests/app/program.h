@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -43,11 +44,24 @@ Outcome run_and_signal(const std::filesystem::path& folder,
 /// One message on standard error, that exit code, and nothing on standard output.
 void expect_refusal(const Outcome& outcome, int code, const std::string& part);
 
+/// A command line, the exit code with which the program refuses it, and a part of the message.
+struct Refusal {
+  std::string command;
+  int code;
+  std::string part;
+};
+
+/// The words of a command line without the name of the program, such as "run p.toml -o run.h5". As in
+/// a shell, 'single quotes' around a word keep its blanks; nothing else is special.
+std::vector<std::string> words_of(const std::string& command);
+
 /// An empty folder of this name below the test's temporary folder, removed with everything in it at the
-/// end of the scope.
+/// end of the scope; and the program, which runs there.
 class Folder {
  public:
   explicit Folder(const std::string& name);
+  /// With a file p.toml of these parameters.
+  Folder(const std::string& name, const std::string& parameters);
   ~Folder();
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
@@ -58,15 +72,23 @@ class Folder {
   /// The whole file.
   std::string read(const std::string& name) const;
 
+  /// Runs a command line (`words_of`) to its end.
+  Outcome run(const std::string& command) const;
+  /// The same, expects the exit code 0, and returns what the program prints.
+  std::string succeed(const std::string& command) const;
+  /// The same of a command that prints a summary as JSON; null if it prints nothing.
+  nlohmann::json summary(const std::string& command) const;
+  /// Runs it where no file may become larger.
+  Outcome run_with_file_limit(std::uint64_t bytes, const std::string& command) const;
+  /// One message on standard error, that exit code, and nothing on standard output.
+  void expect_refusal(const std::string& command, int code, const std::string& part) const;
+  void expect_refusals(const std::vector<Refusal>& refusals) const;
+  /// Two HDF5 files of these names have the same datasets (`differing_datasets`).
+  void expect_same_datasets(const std::string& first, const std::string& second) const;
+
  private:
   std::filesystem::path path_;
 };
-
-/// Runs the program there, expects the exit code 0, and returns what it prints.
-std::string succeed(const Folder& folder, const std::vector<std::string>& arguments);
-
-/// The same of a command that prints a summary as JSON; null if it prints nothing.
-nlohmann::json summary_of(const Folder& folder, std::vector<std::string> arguments);
 
 /// The values of datasets by their names.
 using Datasets = std::map<std::string, std::vector<double>>;

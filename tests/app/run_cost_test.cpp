@@ -1,19 +1,12 @@
 // What `--dry-run` expects of a preparation and a run, against both: by events and sweeps, not by the clock.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <regex>
 
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
 
 namespace vitrel {
 namespace {
 
-using testing::HasSubstr;
-using testing_program::Folder;
-using testing_program::Outcome;
-using testing_program::run;
 using Json = nlohmann::json;
 
 struct Scene {
@@ -48,19 +41,16 @@ void expect_within_two(double expected, double found, const char* what) {
 }
 
 TEST_P(RunCost, IsGoodToAFactorOfTwo) {
-  const Folder folder(std::string("cost_") + GetParam().name);
-  folder.write("p.toml", parameters(GetParam()));
-  const Outcome plan = run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--dry-run"});
-  ASSERT_EQ(plan.code, 0) << plan.errors;
-  const std::vector<double> cost = expected(plan.output);
-  const Outcome ran = run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--json", "-q"});
+  const Folder folder(std::string("cost_") + GetParam().name, parameters(GetParam()));
+  const std::vector<double> cost = expected(folder.succeed("run p.toml -o run.h5 --dry-run"));
+  const Outcome ran = folder.run("run p.toml -o run.h5 --json -q");
   ASSERT_EQ(ran.code, 0) << ran.errors;
   expect_within_two(cost[0], Json::parse(ran.output)["events"], "events");
   EXPECT_GT(cost[1], 0);
 #ifndef __SANITIZE_ADDRESS__
   expect_within_two(cost[2], ran.memory_bytes / 1e6, "memory");
 #endif
-  const auto size = static_cast<double>(std::filesystem::file_size(folder / "run.h5"));
+  const auto size = static_cast<double>(fs::file_size(folder / "run.h5"));
   expect_within_two(cost[3], size / 1e6, "disk");
 }
 
@@ -96,24 +86,21 @@ void expect_within_three(double expected, double found, const char* what) {
 class PreparationPlan : public testing::TestWithParam<Scene> {};
 
 TEST_P(PreparationPlan, IsGoodToAFactorOfThree) {
-  const Folder folder(std::string("plan_") + GetParam().name);
-  folder.write("p.toml", "[system]\n" + GetParam().system + "[[species]]\n" + GetParam().species +
-                             "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\n"
-                             "[[prepare.stage]]\n" +
-                             GetParam().dynamics);
-  const Outcome plan = run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "--dry-run"});
-  ASSERT_EQ(plan.code, 0) << plan.errors;
-  EXPECT_FALSE(std::filesystem::exists(folder / "s.h5"));
-  const Outcome in_run = run(folder.path(), {"run", "p.toml", "-o", "r.h5", "--dry-run"});
-  const std::string stages = plan.output.substr(plan.output.find("stage"));
-  EXPECT_THAT(in_run.output, HasSubstr(stages.substr(0, stages.find("writes"))));
-  const Outcome done = run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "--json", "-q"});
-  ASSERT_EQ(done.code, 0) << done.errors;
-  const Json stage = Json::parse(done.output)["stages"][1];
+  const Folder folder(std::string("plan_") + GetParam().name,
+                      "[system]\n" + GetParam().system + "[[species]]\n" + GetParam().species +
+                          "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\n"
+                          "[[prepare.stage]]\n" +
+                          GetParam().dynamics);
+  const std::string plan = folder.succeed("prepare p.toml -o s.h5 --dry-run");
+  EXPECT_FALSE(fs::exists(folder / "s.h5"));
+  const std::string stages = plan.substr(plan.find("stage"));
+  EXPECT_THAT(folder.run("run p.toml -o r.h5 --dry-run").output,
+              HasSubstr(stages.substr(0, stages.find("writes"))));
+  const Json stage = folder.summary("prepare p.toml -o s.h5")["stages"][1];
   constexpr double events_per_collision = 1.7;
-  expect_within_three(expected_of_stage(plan.output, "events"),
+  expect_within_three(expected_of_stage(plan, "events"),
                       events_per_collision * stage["collisions"].get<double>(), "events");
-  expect_within_three(expected_of_stage(plan.output, "sweeps"), stage["sweeps"], "sweeps");
+  expect_within_three(expected_of_stage(plan, "sweeps"), stage["sweeps"], "sweeps");
 }
 
 constexpr const char* grow_to_pressure =
@@ -136,21 +123,21 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& scene) { return scene.param.name; });
 
 TEST(PreparationPlan, NamesStagesThatTakeAsLongAsTheyTake) {
-  const Folder folder("plan_unforeseen");
-  folder.write("p.toml",
-               "[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\n[[prepare.stage]]\n"
-               "method = \"sample\"\ndecorrelations = 10\n");
-  const Outcome plan = run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "--dry-run"});
-  EXPECT_THAT(plan.output, HasSubstr(", as many sweeps as it takes\nprepares in  more than "));
+  const Folder folder(
+      "plan_unforeseen",
+      "[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\n[[prepare.stage]]\n"
+      "method = \"sample\"\ndecorrelations = 10\n");
+  EXPECT_THAT(folder.run("prepare p.toml -o s.h5 --dry-run").output,
+              HasSubstr(", as many sweeps as it takes\nprepares in  more than "));
 }
 
 TEST(RunCostOfTooMuch, IsAWarning) {
-  const Folder folder("cost_of_too_much");
-  folder.write("p.toml", "[system]\nparticles = 100000000\n[dynamics]\nduration = 1000\n");
-  const Outcome plan = run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--dry-run"});
-  EXPECT_EQ(plan.code, 0) << plan.errors;
-  EXPECT_THAT(plan.output, testing::ContainsRegex("warning +needs .* MB of memory, but there are"));
-  EXPECT_THAT(plan.output, testing::ContainsRegex("warning +needs .* MB of disk, but there are"));
+  const Folder folder("cost_of_too_much",
+                      "[system]\nparticles = 100000000\n[dynamics]\nduration = 1000\n");
+  const std::string plan = folder.succeed("run p.toml -o run.h5 --dry-run");
+  for (const std::string what : {"memory", "disk"})
+    EXPECT_THAT(plan,
+                testing::ContainsRegex("warning +needs .* MB of " + what + ", but there are"));
 }
 
 }  // namespace

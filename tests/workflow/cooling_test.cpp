@@ -1,21 +1,14 @@
 #include "workflow/report/cooling.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <filesystem>
 
 #include "core/io/h5md.h"
+#include "tests/app/end_to_end.h"
 #include "tests/support/scenes.h"
 #include "workflow/report/run_report.h"
 
 namespace vitrel {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr double initial = 0.8, time_scale = 7;
 
@@ -23,9 +16,8 @@ constexpr double initial = 0.8, time_scale = 7;
 /// move.
 ReportData run_of(const std::string& dynamics, double exponent, double last = 100) {
   const Configuration3 spheres = cubic_lattice(3, simple_cubic, 0.1, Ellipsoid{Vec3::Ones()});
-  const fs::path file = fs::temp_directory_path() /
-                        (std::string("vitrel_cooling_") +
-                         testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5");
+  const Folder folder("cooling");
+  const fs::path file = folder / "run.h5";
   Provenance provenance;
   provenance.parameters =
       "[system]\ndimension = 3\n[[species]]\naspect_ratio = 1\n[dynamics]\n" + dynamics;
@@ -42,9 +34,7 @@ ReportData run_of(const std::string& dynamics, double exponent, double last = 10
         {{"rotational_energy", 0}, {"translational_energy", 1.5 * particles * temperature}});
   }
   writer.close();
-  ReportData data = report_data(analyze_run(file, {}));
-  fs::remove(file);
-  return data;
+  return report_data(analyze_run(file, {}));
 }
 
 const std::string contact = "[dynamics.contact]\n";

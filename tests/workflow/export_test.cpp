@@ -1,26 +1,17 @@
 // Exports: which frames, and what is refused. The content is compared in tests/clients.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "analysis/results.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
 #include "tests/support/partial_files.h"
 #include "workflow/export/frame_range.h"
 #include "workflow/export/trajectory_export.h"
 
 namespace vitrel {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing_program::Folder;
-using testing_program::Outcome;
-using testing_program::run;
 
 std::vector<std::uint64_t> chosen(const std::string& text, std::uint64_t frames) {
   return FrameRange(text).of(frames, "run.h5");
@@ -36,7 +27,7 @@ std::string refusal(const std::string& text, std::uint64_t frames) {
 }
 
 /// Disks on a line, in `frames` frames.
-void write_run(const std::filesystem::path& path, std::size_t particles, int frames) {
+void write_run(const fs::path& path, std::size_t particles, int frames) {
   Configuration2 configuration;
   configuration.box = PeriodicBox<2>(Vec2(3.0 * static_cast<double>(particles), 10));
   configuration.resize(particles);
@@ -87,14 +78,9 @@ TEST(FrameRange, RefusesWhatIsNoRange) {
 TEST(Export, NamesTheFileAfterTheInputAndSaysWhatItDid) {
   const Folder folder("export_summary");
   write_run(folder / "run.h5", 5, 4);
-  const Outcome outcome =
-      run(folder.path(), {"export", "run.h5", "--to", "csv", "--frames", "1:", "--json", "-q"});
-  ASSERT_EQ(outcome.code, 0) << outcome.errors;
-  const auto summary = nlohmann::json::parse(outcome.output);
-  EXPECT_EQ(summary["output"], "run.csv");
-  EXPECT_EQ(summary["frames"], 3);
-  EXPECT_EQ(summary["particles"], 5);
-  EXPECT_EQ(summary["bytes"], std::filesystem::file_size(folder / "run.csv"));
+  const auto summary = folder.summary("export run.h5 --to csv --frames 1:");
+  expect_values(summary, {{"output", "run.csv"}, {"frames", 3}, {"particles", 5}});
+  EXPECT_EQ(summary["bytes"], fs::file_size(folder / "run.csv"));
 }
 
 TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
@@ -102,23 +88,16 @@ TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
   write_run(folder / "run.h5", 5, 4);
   write_results(folder / "results.h5", {{{"t", "", {{"time", "time", {1, 2}, {}}}}}, {}});
   folder.write("there.xyz", "kept");
-  const auto expect = [&](std::vector<std::string> arguments, int code, const std::string& part) {
-    arguments.insert(arguments.begin(), "export");
-    arguments.push_back("-q");
-    const Outcome outcome = run(folder.path(), arguments);
-    EXPECT_EQ(outcome.code, code) << part;
-    EXPECT_THAT(outcome.errors, HasSubstr(part));
-    EXPECT_EQ(outcome.output, "");
-  };
-  expect({"run.h5", "--to", "pdf"}, 2, "'pdf' is none of gsd, xyz, csv, xytheta, geo, vti, vtp");
-  expect({"run.h5", "--to", "xyz", "-o", "there.xyz"}, 2, "exists already");
-  expect({"run.h5", "--to", "xyz", "--frames", "4"}, 2, "has 4 frame(s)");
-  expect({"there.xyz", "--to", "gsd"}, 3, "is not recognised as H5MD, GSD, extended XYZ,");
-  expect({"nowhere.h5", "--to", "gsd"}, 3, "nowhere.h5");
-  expect({"run.h5", "--to", "gsd", "-o", "nowhere/run.gsd"}, 3, "nowhere/run.gsd");
-  expect({"results.h5", "--to", "csv"}, 3, "has no group particles");
+  folder.expect_refusals(
+      {{"export -q run.h5 --to pdf", 2, "'pdf' is none of gsd, xyz, csv, xytheta, geo, vti, vtp"},
+       {"export -q run.h5 --to xyz -o there.xyz", 2, "exists already"},
+       {"export -q run.h5 --to xyz --frames 4", 2, "has 4 frame(s)"},
+       {"export -q there.xyz --to gsd", 3, "is not recognised as H5MD, GSD, extended XYZ,"},
+       {"export -q nowhere.h5 --to gsd", 3, "nowhere.h5"},
+       {"export -q run.h5 --to gsd -o nowhere/run.gsd", 3, "nowhere/run.gsd"},
+       {"export -q results.h5 --to csv", 3, "has no group particles"}});
   std::vector<std::string> left;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+  for (const auto& entry : fs::directory_iterator(folder.path()))
     left.push_back(entry.path().filename().string());
   EXPECT_THAT(left, testing::UnorderedElementsAre("results.h5", "run.h5", "standard_error",
                                                   "standard_output", "there.xyz"));
@@ -136,7 +115,7 @@ TEST(Export, GsdKeepsASpeciesOfSeveralShapes) {
 }
 
 /// A frame per time, of one sphere that grows with it.
-void write_packing(const std::filesystem::path& path, int frames) {
+void write_packing(const fs::path& path, int frames) {
   Configuration3 packing;
   packing.box = PeriodicBox<3>(Vec3(4, 4, 4));
   packing.resize(1);
@@ -160,8 +139,8 @@ TEST(Export, LeavesNothingIfStopped) {
     const RunControl control{[&] { return frames == 2; }, [&](const Progress&) { ++frames; }, {}};
     EXPECT_FALSE(export_trajectory({folder / input, format, folder / "output"}, control));
     EXPECT_EQ(frames, 2);
-    EXPECT_FALSE(std::filesystem::exists(folder / "output"));
-    EXPECT_THAT(partial_files(folder.path()), testing::IsEmpty());
+    EXPECT_FALSE(fs::exists(folder / "output"));
+    EXPECT_THAT(partial_files(folder.path()), IsEmpty());
   };
   expect("flat.h5", "gsd");
   expect("run.h5", "gsd");
@@ -171,49 +150,42 @@ TEST(Export, LeavesNothingIfStopped) {
 TEST(ExportOfAPacking, IsOfOneFrameTheLastUnlessTold) {
   const Folder folder("packing_frames");
   write_packing(folder / "run.h5", 3);
-  const auto lines = [&](std::vector<std::string> options, const std::string& file) {
-    options.insert(options.begin(),
-                   {"export", "run.h5", "--to", "csv", "--images", "-q", "-o", file});
-    EXPECT_EQ(run(folder.path(), options).code, 0);
+  const auto lines = [&](const std::string& options, const std::string& file) {
+    folder.succeed("export run.h5 --to csv --images -q " + options + " -o " + file);
     const std::string text = folder.read(file);
     return text.substr(text.find('\n') + 1);
   };
   // The body reaches beyond x = 2, and its image from there.
-  const std::string last = lines({}, "last.csv");
+  const std::string last = lines("", "last.csv");
   EXPECT_EQ(last,
             "0,A,-1,0,0,-2.5,0.2,0,1,1,1,1,0,0,0,4,4,4\n"
             "0,A,0,0,0,1.5,0.2,0,1,1,1,1,0,0,0,4,4,4\n");
-  EXPECT_EQ(lines({"--frames", "-1"}, "a.csv"), last);
-  EXPECT_THAT(lines({"--frames", "0"}, "b.csv"), HasSubstr("1.5,0,0"));
-  EXPECT_THAT(lines({"--shrink", "0.4"}, "c.csv"),
-              "0,A,0,0,0,1.5,0.2,0,0.4,0.4,0.4,1,0,0,0,4,4,4\n");
+  EXPECT_EQ(lines("--frames -1", "a.csv"), last);
+  EXPECT_THAT(lines("--frames 0", "b.csv"), HasSubstr("1.5,0,0"));
+  EXPECT_THAT(lines("--shrink 0.4", "c.csv"), "0,A,0,0,0,1.5,0.2,0,0.4,0.4,0.4,1,0,0,0,4,4,4\n");
 }
 
 TEST(ExportOfAPacking, SaysThatCsvHasNoImages) {
   const Folder folder("packing_csv");
   write_packing(folder / "state.h5", 1);
   write_packing(folder / "run.h5", 2);
-  const auto errors = [&](const std::string& file) {
-    const Outcome outcome = run(folder.path(), {"export", file, "--to", "csv"});
-    EXPECT_EQ(outcome.code, 0);
-    return outcome.errors;
-  };
-  EXPECT_THAT(errors("state.h5"), HasSubstr("state.csv: has the particles of a packing without"));
-  EXPECT_THAT(errors("run.h5"), testing::Not(HasSubstr("packing")));
+  const Outcome state = folder.run("export state.h5 --to csv");
+  const Outcome run = folder.run("export run.h5 --to csv");
+  EXPECT_EQ(state.code, 0);
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(state.errors, HasSubstr("state.csv: has the particles of a packing without"));
+  EXPECT_THAT(run.errors, Not(HasSubstr("packing")));
 }
 
 TEST(ExportOfAPacking, MakesASeriesOfSeveralFrames) {
   const Folder folder("packing_series");
   write_packing(folder / "run.h5", 3);
-  const auto made = [&](std::vector<std::string> options) {
-    options.insert(options.begin(), {"export", "run.h5", "--to", "vtp", "--json", "-q"});
-    const Outcome outcome = run(folder.path(), options);
-    EXPECT_EQ(outcome.code, 0) << outcome.errors;
-    const auto summary = nlohmann::json::parse(outcome.output);
-    const std::filesystem::path output = folder / summary["output"].get<std::string>();
+  const auto made = [&](const std::string& options) {
+    const auto summary = folder.summary("export run.h5 --to vtp " + options);
+    const fs::path output = folder / summary["output"].get<std::string>();
     std::vector<std::string> files;
     std::uintmax_t bytes = 0;
-    for (const auto& file : std::filesystem::directory_iterator(output)) {
+    for (const auto& file : fs::directory_iterator(output)) {
       files.push_back(file.path().filename().string());
       bytes += file.file_size();
     }
@@ -222,46 +194,44 @@ TEST(ExportOfAPacking, MakesASeriesOfSeveralFrames) {
     std::sort(files.begin(), files.end());
     return files;
   };
-  EXPECT_THAT(made({}),
+  EXPECT_THAT(made(""),
               ElementsAre("frame_0000.vtp", "frame_0001.vtp", "frame_0002.vtp", "run.pvd"));
-  EXPECT_TRUE(std::filesystem::is_directory(folder / "run_vtp"));
-  EXPECT_THAT(made({"--frames", "::2", "-o", "some/"}),
+  EXPECT_TRUE(fs::is_directory(folder / "run_vtp"));
+  EXPECT_THAT(made("--frames ::2 -o some/"),
               ElementsAre("frame_0000.vtp", "frame_0002.vtp", "run.pvd"));
-  EXPECT_EQ(run(folder.path(), {"export", "run.h5", "--to", "vtp", "--frames", "1", "-q"}).code, 0);
-  EXPECT_TRUE(std::filesystem::is_regular_file(folder / "run.vtp"));
+  folder.succeed("export run.h5 --to vtp --frames 1 -q");
+  EXPECT_TRUE(fs::is_regular_file(folder / "run.vtp"));
 }
 
 TEST(ExportOfAPacking, RefusesWhatDoesNotFit) {
   const Folder folder("packing_refused");
   write_packing(folder / "run.h5", 3);
   write_run(folder / "flat.h5", 2, 1);
-  const auto message = [&](std::vector<std::string> words) {
-    words.insert(words.begin(), "export");
-    const Outcome outcome = run(folder.path(), words);
-    EXPECT_EQ(outcome.code, 2);
+  const auto message = [&](const std::string& options) {
+    const Outcome outcome = folder.run("export " + options);
+    EXPECT_EQ(outcome.code, 2) << options;
     return outcome.errors;
   };
-  EXPECT_THAT(message({"run.h5", "--to", "csv", "--images", "--frames", ":"}),
-              HasSubstr("selects 3 frames, but --to csv --images takes one"));
-  for (const std::string format : {"geo", "vti"})
-    EXPECT_THAT(message({"run.h5", "--to", format, "--frames", "1:"}),
-                HasSubstr("selects 2 frames, but --to " + format + " takes one"));
-  EXPECT_THAT(message({"run.h5", "--to", "vtp", "-o", "run.vtp"}), HasSubstr("make a folder"));
-  EXPECT_THAT(message({"run.h5", "--to", "csv", "--voxels", "7"}), HasSubstr("is for --to vti"));
-  EXPECT_THAT(message({"run.h5", "--to", "geo", "--shrink", "1.5"}), HasSubstr("--shrink"));
-  EXPECT_THAT(message({"flat.h5", "--to", "csv", "--shrink", "0.5"}),
-              HasSubstr("three dimensions"));
-  EXPECT_THAT(message({"flat.h5", "--to", "vti"}),
-              HasSubstr("flat.h5: is two-dimensional, for which --to takes gsd, xyz, csv, xytheta, "
-                        "but not vti\n"));
-  EXPECT_THAT(message({"run.h5", "--to", "xytheta"}),
-              HasSubstr("run.h5: is three-dimensional, for which --to takes gsd, xyz, csv, geo, "
-                        "vti, vtp, but not xytheta\n"));
-  EXPECT_THAT(message({"run.h5", "--to", "pdf"}), HasSubstr("'pdf' is none of gsd, xyz, csv"));
-  // What belongs to the images is not there without them.
-  EXPECT_THAT(message({"run.h5", "--to", "csv", "--shrink", "0.5"}), HasSubstr("--images"));
-  for (const std::string file : {"flat.h5", "run.h5"})
-    EXPECT_THAT(message({file, "--to", "xyz", "--images"}), HasSubstr("--to csv in three dim"));
+  for (const auto& [options, part] :
+       {std::pair("run.h5 --to csv --images --frames :",
+                  "selects 3 frames, but --to csv --images takes one"),
+        {"run.h5 --to geo --frames 1:", "selects 2 frames, but --to geo takes one"},
+        {"run.h5 --to vti --frames 1:", "selects 2 frames, but --to vti takes one"},
+        {"run.h5 --to vtp -o run.vtp", "make a folder"},
+        {"run.h5 --to csv --voxels 7", "is for --to vti"},
+        {"run.h5 --to geo --shrink 1.5", "--shrink"},
+        {"flat.h5 --to csv --shrink 0.5", "three dimensions"},
+        {"flat.h5 --to vti",
+         "flat.h5: is two-dimensional, for which --to takes gsd, xyz, csv, xytheta, but not vti\n"},
+        {"run.h5 --to xytheta",
+         "run.h5: is three-dimensional, for which --to takes gsd, xyz, csv, geo, vti, vtp, but not "
+         "xytheta\n"},
+        {"run.h5 --to pdf", "'pdf' is none of gsd, xyz, csv"},
+        // What belongs to the images is not there without them.
+        {"run.h5 --to csv --shrink 0.5", "--images"},
+        {"flat.h5 --to xyz --images", "--to csv in three dim"},
+        {"run.h5 --to xyz --images", "--to csv in three dim"}})
+    EXPECT_THAT(message(options), HasSubstr(part)) << options;
 }
 
 }  // namespace

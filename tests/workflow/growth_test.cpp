@@ -2,18 +2,16 @@
 // system.
 #include <dlfcn.h>
 #include <fftw3.h>
-#include <gtest/gtest.h>
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
 
 #include "core/io/h5md.h"
 #include "core/random/stream.h"
+#include "tests/app/end_to_end.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/export/trajectory_export.h"
 #include "workflow/storage/check.h"
@@ -57,15 +55,8 @@ ssize_t pread(int file, void* bytes, std::size_t count, off_t offset) {
 namespace vitrel {
 namespace {
 
-namespace fs = std::filesystem;
-
 class Growth : public testing::Test {
  protected:
-  Growth() : folder_(fs::path(testing::TempDir()) / ("vitrel_growth_" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~Growth() override { fs::remove_all(folder_); }
-
   /// Twenty ellipses that wander about their places.
   fs::path run_of(std::uint64_t frames) const {
     const fs::path path = folder_ / (std::to_string(frames) + ".h5");
@@ -114,7 +105,7 @@ class Growth : public testing::Test {
     }
   }
 
-  fs::path folder_;
+  const Folder folder_{"growth"};
 };
 
 TEST_F(Growth, AnalysisIsLinearInFrames) {

@@ -1,22 +1,16 @@
 // Runs that end as soon as their relaxation times are known.
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "analysis/dynamics/relaxation.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run.h"
 
 namespace vitrel {
 namespace {
-
-using testing::HasSubstr;
-using testing_program::differing_datasets;
-using testing_program::Folder;
 
 constexpr double at_most = 400;
 
@@ -85,7 +79,7 @@ TEST(KnownRelaxation, EndsTheSameRunHoweverOftenItIsStopped) {
   run_in_pieces({fluid(until_known), folder / "pieces.h5"});
   run_simulation<2>({fluid(until_known), folder / "threads.h5", "", 2}, {}, {});
   for (const char* other : {"pieces.h5", "threads.h5"})
-    EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / other), testing::IsEmpty());
+    EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / other), IsEmpty());
 }
 
 TEST(KnownRelaxation, IsWaitedForNoLongerThanAllowed) {

@@ -1,13 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <set>
 
 #include "core/error.h"
 #include "core/io/text_file.h"
+#include "tests/app/end_to_end.h"
 #include "tests/support/parameter_refusal.h"
 #include "workflow/analyze/observables_page.h"
 #include "workflow/configuration/parameters.h"
@@ -16,11 +13,14 @@
 namespace vitrel {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+const fs::path source_folder = VITREL_SOURCE_FOLDER;
 
-const std::filesystem::path source_folder = VITREL_SOURCE_FOLDER;
+/// The effective parameters, after a check that reading them gives them again.
+std::string written(const Parameters& parameters) {
+  const std::string text = effective_parameters(parameters);
+  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+  return text;
+}
 
 TEST(ParameterFile, TheDefaultsAreValidAndTheTemplatesAreTheDefaults) {
   const std::string defaults = effective_parameters(Parameters());
@@ -28,8 +28,8 @@ TEST(ParameterFile, TheDefaultsAreValidAndTheTemplatesAreTheDefaults) {
     const std::string text = command_template(command);
     EXPECT_EQ(effective_parameters(parse_parameters(text, "template")), defaults) << command;
   }
-  EXPECT_THAT(command_template("prepare"), testing::Not(HasSubstr("[dynamics]")));
-  EXPECT_THAT(command_template("analyze"), testing::Not(HasSubstr("[system]")));
+  EXPECT_THAT(command_template("prepare"), Not(HasSubstr("[dynamics]")));
+  EXPECT_THAT(command_template("analyze"), Not(HasSubstr("[system]")));
   EXPECT_THAT(command_template("sweep"), HasSubstr("[sweep.grid]"));
   EXPECT_THROW(command_template("check"), UserError);
 }
@@ -59,8 +59,7 @@ samples = { spacing = "logarithmic", first = 0.3, per_decade = 7 }
 correlations = { interval = 0.05, wave_numbers = [1, 2.7] }
 )",
                                            "file.toml");
-  const std::string text = effective_parameters(parameters);
-  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+  const std::string text = written(parameters);
   EXPECT_THAT(text, HasSubstr("packing_fraction = 0.7123456789012345"));
   EXPECT_THAT(text, HasSubstr("per_decade = 7"));
 }
@@ -82,7 +81,7 @@ TEST(ParameterFile, KeysOfEarlierVersionsAreStillRead) {
   EXPECT_EQ(former.analysis.axis.max_origins, 7u);
   const std::string now = effective_parameters(former);
   EXPECT_THAT(now, HasSubstr("max_origins = 7"));
-  EXPECT_THAT(now, testing::Not(HasSubstr("most_origins")));
+  EXPECT_THAT(now, Not(HasSubstr("most_origins")));
   EXPECT_THAT(refusal("[analysis]\nmax_origins = 7\nmost_origins = 7\n"),
               HasSubstr("file.toml:3:1: key 'analysis.most_origins' is unknown"));
 
@@ -124,9 +123,8 @@ TEST(ParameterFile, OnlyHarmlessChangesAreAllowedWhenContinuing) {
 }
 
 TEST(ParameterFile, TheFilesOfTheProjectAreValid) {
-  std::set<std::filesystem::path> folders;
-  for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(source_folder / "params")) {
+  std::set<fs::path> folders;
+  for (const auto& entry : fs::recursive_directory_iterator(source_folder / "params")) {
     if (entry.path().extension() != ".toml") continue;
     folders.insert(entry.path().parent_path());
     EXPECT_NO_THROW(sweep_jobs({entry.path(), {}, {}})) << entry.path();
@@ -146,7 +144,7 @@ TEST(ParameterFile, ThreeDimensionsAreReadAndWritten) {
   EXPECT_EQ(second.low, 0.1);
   EXPECT_LE(second.minimum, 0.1);
   EXPECT_EQ(end_of_stage(read.stages[0], read.system, 0), 0.01);
-  const std::string text = effective_parameters(read);
+  const std::string text = written(read);
   EXPECT_THAT(text,
               HasSubstr("aspect_ratios = [4.0, { distribution = \"uniform\", low = 0.1, high ="));
   EXPECT_THAT(text, HasSubstr("box_aspect = 1.0\n"));
@@ -155,7 +153,6 @@ TEST(ParameterFile, ThreeDimensionsAreReadAndWritten) {
       "slab.toml");
   EXPECT_EQ(box_proportions<3>(slab.system), Vec3(1, 2, 0.25));
   EXPECT_THAT(effective_parameters(slab), HasSubstr("box_aspect = [2.0, 0.25]\n"));
-  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
 }
 
 TEST(ParameterFile, SemiAxesAreNumbersOrDistributions) {
@@ -168,9 +165,8 @@ TEST(ParameterFile, SemiAxesAreNumbersOrDistributions) {
   EXPECT_EQ(axes[0].mean, 4);
   EXPECT_EQ(axes[1].high, 2);
   EXPECT_EQ(axes[2].kind, Distribution::Kind::constant);
-  const std::string text = effective_parameters(read);
+  const std::string text = written(read);
   EXPECT_THAT(text, HasSubstr("semi_axes = [4.0, { distribution = \"uniform\", low = 0.1, high ="));
-  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
 }
 
 TEST(ParameterFile, ContactsAreReadInAnyUnitAndWrittenInSi) {
@@ -186,27 +182,23 @@ TEST(ParameterFile, ContactsAreReadInAnyUnitAndWrittenInSi) {
   EXPECT_DOUBLE_EQ(contact.viscoelastic.youngs_modulus, 1e7);
   EXPECT_DOUBLE_EQ(contact.viscoelastic.dissipative_time, 2e-5);
   EXPECT_EQ(contact.early_release, EarlyRelease::together);
-  const std::string text = effective_parameters(read);
-  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+  const std::string text = written(read);
   EXPECT_THAT(text, HasSubstr("[dynamics.contact]\n"));
-  EXPECT_THAT(text, testing::Not(HasSubstr("stiffness")));
+  EXPECT_THAT(text, Not(HasSubstr("stiffness")));
   EXPECT_THAT(command_template("run"), HasSubstr("# [dynamics.contact]\n"));
   EXPECT_THAT(command_template("run"), HasSubstr("# youngs_modulus = \"1000000000 Pa\""));
 }
 
-TEST(ParameterFile, TheReferencePageIsUpToDate) {
-  EXPECT_EQ(read_text(source_folder / "docs/parameters.md"), parameter_page())
-      << "regenerate it: vitrel params --reference > docs/parameters.md";
-}
-
-TEST(ParameterFile, TheModuleOfThePythonPackageIsUpToDate) {
-  EXPECT_EQ(read_text(source_folder / "python/vitrel/parameters.py"), parameter_module())
-      << "regenerate it: vitrel params --python > python/vitrel/parameters.py";
-}
-
-TEST(ObservablesPage, IsUpToDate) {
-  EXPECT_EQ(read_text(source_folder / "docs/observables.md"), observables_page())
-      << "regenerate it: vitrel analyze --list > docs/observables.md";
+TEST(GeneratedFiles, AreUpToDate) {
+  struct Generated {
+    std::string file, content, command;
+  };
+  for (const auto& [file, content, command] : std::initializer_list<Generated>{
+           {"docs/parameters.md", parameter_page(), "params --reference"},
+           {"python/vitrel/parameters.py", parameter_module(), "params --python"},
+           {"docs/observables.md", observables_page(), "analyze --list"}})
+    EXPECT_EQ(read_text(source_folder / file), content)
+        << "regenerate it: vitrel " << command << " > " << file;
 }
 
 TEST(RecordedParameters, OfEarlierVersionsDrewShapesForEachSeed) {
@@ -241,12 +233,19 @@ TEST(RecordedParameters, OfEarlierVersionsKeptAngularVelocitiesConstant) {
             "dynamics.rotation");
 }
 
+/// The jobs of a sweep of these parameters.
+std::vector<SweepJob> jobs_of(const std::string& parameters,
+                              const std::vector<std::string>& overrides = {},
+                              std::optional<std::uint64_t> seed = {}) {
+  const Folder folder("sweep_jobs", parameters);
+  return sweep_jobs({folder / "p.toml", overrides, seed});
+}
+
 TEST(SweepJobs, EveryCombinationIsAJobOfItsOwn) {
-  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_jobs.toml";
-  std::ofstream(file)
-      << "[sweep.grid]\n\"system.packing_fraction\" = [0.4, 0.5]\nsystem.seed = [1, 2, 3]\n"
-      << "\"dynamics.kind\" = [\"brownian\"]\n";
-  const std::vector<SweepJob> jobs = sweep_jobs({file, {"system.particles=7"}, {}});
+  const std::vector<SweepJob> jobs = jobs_of(
+      "[sweep.grid]\n\"system.packing_fraction\" = [0.4, 0.5]\nsystem.seed = [1, 2, 3]\n"
+      "\"dynamics.kind\" = [\"brownian\"]\n",
+      {"system.particles=7"});
   ASSERT_EQ(jobs.size(), 6u);
   EXPECT_EQ(jobs[1].id, "packing_fraction-0.4_seed-2_kind-brownian");
   EXPECT_EQ(jobs[1].parameters.system.packing_fraction, 0.4);
@@ -254,22 +253,18 @@ TEST(SweepJobs, EveryCombinationIsAJobOfItsOwn) {
   EXPECT_EQ(jobs[1].parameters.system.particles, 7);
   EXPECT_EQ(jobs[5].parameters.system.packing_fraction, 0.5);
   EXPECT_EQ(jobs[5].parameters.dynamics.kind, DynamicsParameters::Kind::brownian);
-  std::ofstream(file) << "[sweep.grid]\n\"system.seed\" = [1, 1]\n";
-  EXPECT_THROW(sweep_jobs({file, {}, {}}), UserError);
-  std::ofstream(file) << "[sweep.grid]\n\"system.sed\" = [1, 2]\n";
-  EXPECT_THROW(sweep_jobs({file, {}, {}}), UserError);
-  std::filesystem::remove(file);
+  EXPECT_THROW(jobs_of("[sweep.grid]\n\"system.seed\" = [1, 1]\n"), UserError);
+  EXPECT_THROW(jobs_of("[sweep.grid]\n\"system.sed\" = [1, 2]\n"), UserError);
 }
 
 // Three densities with durations and sample intervals of their own, each with both seeds; of the keys that
 // advance together only the first is in the names.
 TEST(SweepJobs, KeysAdvanceTogether) {
-  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_together.toml";
-  std::ofstream(file) << "[sweep.grid]\n\"system.seed\" = [1, 2]\n[sweep.together]\n"
-                         "\"system.packing_fraction\" = [0.4, 0.5, 0.6]\n"
-                         "\"dynamics.duration\" = [10, 20, 40]\n"
-                         "\"output.samples.interval\" = [0.1, 0.2, 0.5]\n";
-  const std::vector<SweepJob> jobs = sweep_jobs({file, {}, {}});
+  const std::vector<SweepJob> jobs = jobs_of(
+      "[sweep.grid]\n\"system.seed\" = [1, 2]\n[sweep.together]\n"
+      "\"system.packing_fraction\" = [0.4, 0.5, 0.6]\n"
+      "\"dynamics.duration\" = [10, 20, 40]\n"
+      "\"output.samples.interval\" = [0.1, 0.2, 0.5]\n");
   ASSERT_EQ(jobs.size(), 6u);
   const char* ids[] = {"packing_fraction-0.4_seed-1", "packing_fraction-0.4_seed-2",
                        "packing_fraction-0.5_seed-1", "packing_fraction-0.5_seed-2",
@@ -287,18 +282,16 @@ TEST(SweepJobs, KeysAdvanceTogether) {
   }
   EXPECT_EQ(&job_named(jobs, ids[3]), &jobs[3]);
   EXPECT_THROW(job_named(jobs, "packing_fraction-0.7_seed-1"), UserError);
-  std::filesystem::remove(file);
 }
 
 TEST(SweepJobs, PublishedValuesBelongToTheStepsOfTheFirstAxis) {
-  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_published.toml";
-  std::ofstream(file) << "[sweep.grid]\n\"system.packing_fraction\" = [0.4, 0.5, 0.6]\n"
-                         "\"system.seed\" = [1, 2]\n"
-                         "[[sweep.published]]\nsource = \"A\"\nquantity = \"diffusion\"\n"
-                         "values = [3, 2, 1]\n"
-                         "[[sweep.published]]\nsource = \"B\"\nquantity = \"diffusion\"\n"
-                         "exponent = -2\nfrom = 0.5\n";
-  const std::vector<SweepJob> jobs = sweep_jobs({file, {}, {}});
+  const std::vector<SweepJob> jobs = jobs_of(
+      "[sweep.grid]\n\"system.packing_fraction\" = [0.4, 0.5, 0.6]\n"
+      "\"system.seed\" = [1, 2]\n"
+      "[[sweep.published]]\nsource = \"A\"\nquantity = \"diffusion\"\n"
+      "values = [3, 2, 1]\n"
+      "[[sweep.published]]\nsource = \"B\"\nquantity = \"diffusion\"\n"
+      "exponent = -2\nfrom = 0.5\n");
   for (std::size_t k = 0; k < 6; ++k) {
     ASSERT_EQ(jobs[k].published.size(), 2u);
     EXPECT_EQ(jobs[k].published[0].value, 3.0 - static_cast<double>(k / 2));
@@ -308,16 +301,11 @@ TEST(SweepJobs, PublishedValuesBelongToTheStepsOfTheFirstAxis) {
     EXPECT_EQ(jobs[k].published[1].from, 0.5);
     EXPECT_EQ(jobs[k].published[1].to, std::numeric_limits<double>::infinity());
   }
-  std::filesystem::remove(file);
 }
 
 /// The wave numbers of the analysis of the last job.
 std::vector<double> wave_numbers(const std::string& parameters) {
-  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_wave_numbers.toml";
-  std::ofstream(file) << parameters;
-  std::vector<double> last = sweep_jobs({file, {}, {}}).back().parameters.analysis.wave_numbers;
-  std::filesystem::remove(file);
-  return last;
+  return jobs_of(parameters).back().parameters.analysis.wave_numbers;
 }
 
 // Particles of size 1 have the area π, so that ρ = φ/π; of size 2, four times that.
@@ -337,14 +325,13 @@ TEST(SweepJobs, DifferentDensitiesAreAnalyzedAtOneWaveNumber) {
 }
 
 TEST(SweepJobs, WhatTheCommandLineWouldSetInVainIsRefused) {
-  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_in_vain.toml";
-  std::ofstream(file) << "[sweep.grid]\n\"system.seed\" = [1, 2]\n"
-                         "[sweep.together]\n\"system.particles\" = [10, 20]\n";
-  EXPECT_THROW(sweep_jobs({file, {}, 7}), UserError);
-  EXPECT_THROW(sweep_jobs({file, {"system.seed=7"}, {}}), UserError);
-  EXPECT_THROW(sweep_jobs({file, {"system.particles=7"}, {}}), UserError);
-  EXPECT_EQ(sweep_jobs({file, {"dynamics.duration=7"}, {}}).size(), 4u);
-  std::filesystem::remove(file);
+  const std::string sweep =
+      "[sweep.grid]\n\"system.seed\" = [1, 2]\n"
+      "[sweep.together]\n\"system.particles\" = [10, 20]\n";
+  EXPECT_THROW(jobs_of(sweep, {}, 7), UserError);
+  EXPECT_THROW(jobs_of(sweep, {"system.seed=7"}), UserError);
+  EXPECT_THROW(jobs_of(sweep, {"system.particles=7"}), UserError);
+  EXPECT_EQ(jobs_of(sweep, {"dynamics.duration=7"}).size(), 4u);
 }
 
 }  // namespace

@@ -1,19 +1,15 @@
 // Pictures: what is covered, hidden and cut, what colours mean, and the files.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <png.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "core/error.h"
 #include "core/io/checked.h"
 #include "core/io/h5md.h"
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
 #include "tests/support/partial_files.h"
 #include "workflow/picture/image_files.h"
 
@@ -21,13 +17,6 @@ namespace vitrel {
 namespace {
 
 using std::numbers::pi;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing_program::expect_refusal;
-using testing_program::Folder;
-using testing_program::run;
-using testing_program::succeed;
-using testing_program::summary_of;
 
 template <int Dim>
 Configuration<Dim> particles(const Vec<Dim>& box, const std::vector<ParticleShape<Dim>>& shapes) {
@@ -273,7 +262,7 @@ TEST(Picture, SvgHasAnEllipsePerImage) {
 
 /// Frames of three particles that move to the right, each time by 0.1, 0.2 and 0.3.
 template <int Dim>
-void write_run(const std::filesystem::path& path, int frames) {
+void write_run(const fs::path& path, int frames) {
   Configuration<Dim> state =
       particles<Dim>(Vec<Dim>::Constant(20), std::vector<ParticleShape<Dim>>(3));
   for (std::size_t i = 0; i < 3; ++i) state.position[i].y() = 3.0 * static_cast<double>(i);
@@ -290,14 +279,12 @@ void write_run(const std::filesystem::path& path, int frames) {
 class Path {
  public:
   explicit Path(const std::string& value) {
-    const char* const before = std::getenv("PATH");
-    before_ = before ? before : "";
+    if (const char* const before = std::getenv("PATH")) before_ = before;
     checked(setenv("PATH", value.c_str(), 1), "setenv");
   }
   ~Path() { static_cast<void>(setenv("PATH", before_.c_str(), 1)); }
   Path(const Path&) = delete;
   Path& operator=(const Path&) = delete;
-  const std::string& before() const { return before_; }
 
  private:
   std::string before_;
@@ -305,108 +292,90 @@ class Path {
 
 class PictureCommand : public testing::Test {
  protected:
-  PictureCommand() : folder_("picture") {
+  PictureCommand() {
     write_run<2>(folder_ / "run.h5", 5);
     write_run<3>(folder_ / "space.h5", 1);
   }
-  /// Puts a program named ffmpeg there; returns the folder that it is in.
-  std::string ffmpeg(const std::string& script) const {
-    std::filesystem::create_directory(folder_ / "bin");
+  ~PictureCommand() override { EXPECT_THAT(partial_files(folder_.path()), IsEmpty()); }
+  /// Puts a program named ffmpeg there; returns PATH with the folder that it is in.
+  std::string path_with_ffmpeg(const std::string& script) const {
+    fs::create_directory(folder_ / "bin");
     folder_.write("bin/ffmpeg", "#!/bin/sh\n" + script);
-    std::filesystem::permissions(folder_ / "bin/ffmpeg", std::filesystem::perms::owner_all);
-    return (folder_ / "bin").string();
+    fs::permissions(folder_ / "bin/ffmpeg", fs::perms::owner_all);
+    const char* const path = std::getenv("PATH");
+    return (folder_ / "bin").string() + ":" + (path ? path : "");
   }
 
-  const Folder folder_;
+  const Folder folder_{"picture"};
 };
 
 TEST_F(PictureCommand, DrawsTheLastFrameBesideTheFile) {
-  const auto summary =
-      summary_of(folder_, {"picture", "run.h5", "--width", "106", "--colour", "displacement"});
-  EXPECT_EQ(summary["output"], "run.png");
-  EXPECT_EQ(summary["frames"], 1);
-  EXPECT_EQ(summary["particles"], 3);
-  EXPECT_EQ(summary["width"], 106);
-  EXPECT_EQ(summary["height"], 106);
-  EXPECT_EQ(summary["colour"], "displacement");
+  const auto summary = folder_.summary("picture run.h5 --width 106 --colour displacement");
+  expect_values(summary, {{"output", "run.png"},
+                          {"frames", 1},
+                          {"particles", 3},
+                          {"width", 106},
+                          {"height", 106},
+                          {"colour", "displacement"}});
   EXPECT_EQ(summary["colour_scale"][0], 0);
   EXPECT_NEAR(summary["colour_scale"][1], 0.8, 1e-12);  // four times 0.2
-  EXPECT_THAT(folder_.read("run.png"), testing::StartsWith("\x89PNG"));
+  EXPECT_THAT(folder_.read("run.png"), StartsWith("\x89PNG"));
   const std::string last = folder_.read("run.png");
-  succeed(folder_, {"picture", "run.h5", "--width", "106", "--frame", "0", "-q"});
+  folder_.succeed("picture run.h5 --width 106 --frame 0 -q");
   EXPECT_NE(folder_.read("run.png"), last);
-  succeed(folder_, {"picture", "run.h5", "-o", "run.svg", "-q"});
+  folder_.succeed("picture run.h5 -o run.svg -q");
   EXPECT_THAT(folder_.read("run.svg"), testing::EndsWith("</svg>\n"));
-  succeed(folder_, {"picture", "space.h5", "--azimuth", "-30", "--whole", "-q"});
-  EXPECT_THAT(partial_files(folder_.path()), IsEmpty());
+  folder_.succeed("picture space.h5 --azimuth -30 --whole -q");
 }
 
 TEST_F(PictureCommand, RefusesWithOneMessage) {
-  const auto expect = [&](std::vector<std::string> words, int code, const std::string& part) {
-    words.insert(words.begin(), "picture");
-    words.push_back("-q");
-    expect_refusal(run(folder_.path(), words), code, part);
-  };
-  expect({"run.h5", "--colour", "psi"}, 2, "--colour: 'psi' is none of orientation, species,");
-  expect({"space.h5", "--colour", "psi6"}, 2, "psi6 are for two dimensions");
-  expect({"space.h5", "-o", "x.svg"}, 2, "space.h5: is three-dimensional, and drawn as .png");
-  expect({"run.h5", "-o", "x.gif"}, 2, "x.gif: a picture is called .png or, in two dimensions,");
-  expect({"run.h5", "--elevation", "10"}, 2, "run.h5: is two-dimensional; --azimuth,");
-  expect({"run.h5", "--frames", "1:3"}, 2, "selects 2 frames, but run.png shows one");
-  expect({"run.h5", "--frames", "9"}, 2, "has 5 frame(s)");
-  expect({"run.h5", "--rate", "10"}, 2, "--rate: is for films");
-  expect({"run.h5", "-o", "nowhere/x.png"}, 3, "there is no folder");
-  expect({"run.h5", "-o", "run.h5"}, 2, "run.h5");
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "run.png"));
+  folder_.expect_refusals(
+      {{"picture -q run.h5 --colour psi", 2, "--colour: 'psi' is none of orientation, species,"},
+       {"picture -q space.h5 --colour psi6", 2, "psi6 are for two dimensions"},
+       {"picture -q space.h5 -o x.svg", 2, "space.h5: is three-dimensional, and drawn as .png"},
+       {"picture -q run.h5 -o x.gif", 2, "x.gif: a picture is called .png or, in two dimensions,"},
+       {"picture -q run.h5 --elevation 10", 2, "run.h5: is two-dimensional; --azimuth,"},
+       {"picture -q run.h5 --frames 1:3", 2, "selects 2 frames, but run.png shows one"},
+       {"picture -q run.h5 --frames 9", 2, "has 5 frame(s)"},
+       {"picture -q run.h5 --rate 10", 2, "--rate: is for films"},
+       {"picture -q run.h5 -o nowhere/x.png", 3, "there is no folder"},
+       {"picture -q run.h5 -o run.h5", 2, "run.h5"}});
+  EXPECT_FALSE(fs::exists(folder_ / "run.png"));
 }
 
 TEST_F(PictureCommand, SaysThatFfmpegIsMissing) {
   const Path path((folder_ / "nowhere").string());
-  expect_refusal(run(folder_.path(), {"picture", "run.h5", "-o", "run.mp4", "-q"}), 2,
-                 "films are made by the program ffmpeg, which cannot be started: No such file");
-  EXPECT_THAT(partial_files(folder_.path()), IsEmpty());
+  folder_.expect_refusal(
+      "picture run.h5 -o run.mp4 -q", 2,
+      "films are made by the program ffmpeg, which cannot be started: No such file");
 }
 
 // Instead of a film it writes its arguments and how many bytes it got.
 TEST_F(PictureCommand, GivesFfmpegAllFrames) {
-  Path path("");
-  const std::string programs =
-      ffmpeg(
-          "for word; do case $word in pipe:*) input=${word#pipe:};; esac; done\n"
-          "{ echo \"$@\"; wc -c <&$input; } > \"${word#file:}\"\n") +
-      ":" + path.before();
-  checked(setenv("PATH", programs.c_str(), 1), "setenv");
-  const auto summary = summary_of(folder_, {"picture", "run.h5", "-o", "run.mp4", "--width", "31",
-                                            "--frames", "1:", "--rate", "12.5"});
+  const Path path(
+      path_with_ffmpeg("for word; do case $word in pipe:*) input=${word#pipe:};; esac; done\n"
+                       "{ echo \"$@\"; wc -c <&$input; } > \"${word#file:}\"\n"));
+  const auto summary =
+      folder_.summary("picture run.h5 -o run.mp4 --width 31 --frames 1: --rate 12.5");
   EXPECT_EQ(summary["frames"], 4);
   EXPECT_EQ(summary["width"], 32);  // of which films have an even number
   const std::string film = folder_.read("run.mp4");
   EXPECT_THAT(film, HasSubstr("-video_size 32x32 -framerate 12.5 -i pipe:"));
   EXPECT_THAT(film, HasSubstr("\n" + std::to_string(4 * 3 * 32 * 32) + "\n"));
-  EXPECT_THAT(partial_files(folder_.path()), IsEmpty());
 }
 
 TEST_F(PictureCommand, AnFfmpegThatFailsLeavesTheOldFilm) {
   folder_.write("run.mp4", "old");
-  Path path("");
-  const std::string programs = ffmpeg("exit 7\n") + ":" + path.before();
-  checked(setenv("PATH", programs.c_str(), 1), "setenv");
-  expect_refusal(run(folder_.path(), {"picture", "run.h5", "-o", "run.mp4", "-q"}), 3,
-                 "run.mp4: cannot be written: ffmpeg ended early with the exit code 7");
+  const Path path(path_with_ffmpeg("exit 7\n"));
+  folder_.expect_refusal("picture run.h5 -o run.mp4 -q", 3,
+                         "run.mp4: cannot be written: ffmpeg ended early with the exit code 7");
   EXPECT_EQ(folder_.read("run.mp4"), "old");
-  EXPECT_THAT(partial_files(folder_.path()), IsEmpty());
 }
 
 TEST_F(PictureCommand, APictureThatDoesNotFitLeavesNothing) {
-  rlimit before{};
-  checked(getrlimit(RLIMIT_FSIZE, &before), "getrlimit");
-  const rlimit limit{1000, before.rlim_max};
-  checked(setrlimit(RLIMIT_FSIZE, &limit), "setrlimit");
-  const auto outcome = run(folder_.path(), {"picture", "run.h5", "-q"});
-  checked(setrlimit(RLIMIT_FSIZE, &before), "setrlimit");
-  expect_refusal(outcome, 3, "run.png: cannot be written: File too large");
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "run.png"));
-  EXPECT_THAT(partial_files(folder_.path()), IsEmpty());
+  testing_program::expect_refusal(folder_.run_with_file_limit(1000, "picture run.h5 -q"), 3,
+                                  "run.png: cannot be written: File too large");
+  EXPECT_FALSE(fs::exists(folder_ / "run.png"));
 }
 
 }  // namespace

@@ -1,26 +1,17 @@
 #include "workflow/prepare/quality.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "core/io/text_file.h"
 #include "core/special_values.h"
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
+#include "tests/support/preparations.h"
 
 namespace vitrel {
 namespace {
-
-using testing::HasSubstr;
-using testing_program::Folder;
-
-const auto say_nothing = [](const std::string&) {};
 
 Parameters small() {
   Parameters parameters;
@@ -30,7 +21,7 @@ Parameters small() {
 }
 
 Quality measured(const Parameters& parameters) {
-  return *measure_quality(prepare({parameters}, {}, say_nothing), parameters, {});
+  return *measure_quality(prepared(parameters), parameters, {});
 }
 
 std::string text(const Quality& quality) {
@@ -81,7 +72,7 @@ TEST(MeasureQuality, OfASquareLatticeOfParallelEllipses) {
 
 TEST(MeasureQuality, LeavesTheStateAsItIs) {
   const Parameters parameters = small();
-  const Preparation preparation = prepare({parameters}, {}, say_nothing);
+  const Preparation preparation = prepared(parameters);
   const std::vector<Vec2> before = preparation.configuration.position;
   const auto one = measure_quality(preparation, parameters, {});
   EXPECT_EQ(preparation.configuration.position, before);
@@ -96,7 +87,7 @@ TEST(MeasureQuality, TakesThePressureOfAGrowthThatEndedJammed) {
   growth.growth_rate = 0.02;
   parameters.stages[1] = growth;
   parameters.species[0].aspect_ratio->mean = 1.4;
-  const Preparation grown = prepare({parameters}, {}, say_nothing);
+  const Preparation grown = prepared(parameters);
   const Quality jammed = *measure_quality(grown, parameters, {});
   EXPECT_EQ(jammed.pressure_from, Quality::PressureFrom::growth);
   EXPECT_EQ(jammed.reduced_pressure.mean, grown.stages.back().growth.reduced_pressure);
@@ -135,7 +126,7 @@ TEST(MeasureQuality, TheBudgetStopsIt) {
   RunControl control;
   control.should_stop = [] { return true; };
   const Parameters parameters = small();
-  EXPECT_FALSE(measure_quality(prepare({parameters}, {}, say_nothing), parameters, control));
+  EXPECT_FALSE(measure_quality(prepared(parameters), parameters, control));
 }
 
 PackingQuality packing_grown_to(const std::string& pressure) {
@@ -146,7 +137,7 @@ PackingQuality packing_grown_to(const std::string& pressure) {
       "reduced_pressure = " +
           pressure,
       "p.toml");
-  return *measure_quality(prepare<3>({parameters}, {}, say_nothing), parameters, {});
+  return *measure_quality(prepared<3>(parameters), parameters, {});
 }
 
 TEST(MeasureQuality, OfAPackingInSpaceCountsContactsIfItIsJammed) {
@@ -189,7 +180,7 @@ TEST(MeasureQuality, OfAPackingInSpaceKnowsTheOrientationsItBeganWith) {
         "aspect_ratio = 3\n[[prepare.stage]]\nmethod = \"insert\"\norientations = " +
             orientations + "\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0.1",
         "p.toml");
-    return *measure_quality(prepare<3>({parameters}, {}, say_nothing), parameters, {});
+    return *measure_quality(prepared<3>(parameters), parameters, {});
   };
   const PackingQuality aligned = grown_from("\"aligned\"");
   EXPECT_TRUE(aligned.first_orientation_tensor->isApprox(Mat3(Vec3(1, 0, 0).asDiagonal()), 1e-14));

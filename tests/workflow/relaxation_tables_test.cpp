@@ -29,6 +29,12 @@ double truth(double kind, double parameter) {
 
 // Four standard errors, and the 0.2 % by which a straight line may be wrong (relaxation.h): false-alarm rate
 // 0.06 per mille for each of 20 rows.
+void expect_close(const Column& tau, std::size_t row, double expected) {
+  EXPECT_GT(tau.error[row], 0) << row;
+  EXPECT_LT(tau.error[row], 0.1 * expected) << row;
+  EXPECT_NEAR(tau.value[row], expected, 4 * tau.error[row] + 0.002 * expected) << row;
+}
+
 void expect_closed_forms(Trajectory2& trajectory) {
   Results results;
   store_relaxation_times(displacements(trajectory, {.wave_numbers = {2, 3}}), nullptr, results);
@@ -44,9 +50,7 @@ void expect_closed_forms(Trajectory2& trajectory) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double expected =
         truth(table.find("kind")->value[row], table.find("parameter")->value[row]);
-    EXPECT_GT(tau.error[row], 0) << row;
-    EXPECT_LT(tau.error[row], 0.1 * expected) << row;
-    EXPECT_NEAR(tau.value[row], expected, 4 * tau.error[row] + 0.002 * expected) << row;
+    expect_close(tau, row, expected);
     EXPECT_EQ(results.text("relaxation_times_" + std::to_string(row)), "");
   }
 }
@@ -118,12 +122,7 @@ TEST(RelaxationTables, HaveAllAxesOfScaleneEllipsoids) {
   const double variance = deviation * deviation;
   const double truth[] = {2 / variance, -std::log((4 / std::numbers::e - 1) / 3) / (2 * variance)};
   const Column& tau = *table.find("tau");
-  for (const std::size_t row : {1u, 2u, 5u, 6u}) {
-    const double expected = truth[(row - 1) % 2];
-    EXPECT_GT(tau.error[row], 0) << row;
-    EXPECT_LT(tau.error[row], 0.1 * expected) << row;
-    EXPECT_NEAR(tau.value[row], expected, 4 * tau.error[row] + 0.002 * expected) << row;
-  }
+  for (const std::size_t row : {1u, 2u, 5u, 6u}) expect_close(tau, row, truth[(row - 1) % 2]);
   for (const std::size_t row : {3u, 4u}) {
     EXPECT_TRUE(std::isnan(tau.value[row])) << row;
     EXPECT_TRUE(results.text("relaxation_times_" + std::to_string(row)).starts_with("still 1 "));

@@ -1,42 +1,17 @@
 // From the parameter file's SI units to contacts in the units of a run.
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <numbers>
 
 #include "core/io/checked.h"
 #include "edmd/soft/restitution.h"
+#include "tests/app/end_to_end.h"
 #include "workflow/configuration/soft_particles.h"
 
 namespace vitrel {
 namespace {
-
-/// Tables go to a folder of the test's own.
-class SoftParticles : public testing::Test {
- protected:
-  SoftParticles()
-      : folder_(std::filesystem::path(testing::TempDir()) /
-                testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::remove_all(folder_);
-    checked(setenv("XDG_CACHE_HOME", folder_.c_str(), 1), "setenv");
-  }
-  ~SoftParticles() override { std::filesystem::remove_all(folder_); }
-
-  /// The contact of spheres of these radii.
-  std::shared_ptr<SoftContact> one_contact(const ContactParameters& contact,
-                                           const std::vector<double>& radii) const;
-
-  std::filesystem::path folder_;
-  std::vector<std::string> said_;
-  const std::function<void(const std::string&)> say_ = [this](const std::string& line) {
-    said_.push_back(line);
-  };
-};
 
 /// Spheres whose radii are in units of the first.
 Configuration3 spheres(const std::vector<double>& radii) {
@@ -91,10 +66,23 @@ void expect_contact_in_si(const Force& force, const ContactParameters& p, SoftCo
     }
 }
 
-std::shared_ptr<SoftContact> SoftParticles::one_contact(const ContactParameters& contact,
-                                                        const std::vector<double>& radii) const {
-  return soft_contact(with_contact(contact), spheres(radii), 2, say_).common();
-}
+/// Tables go to a folder of the test's own.
+class SoftParticles : public testing::Test {
+ protected:
+  SoftParticles() { checked(setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1), "setenv"); }
+
+  /// The contact of spheres of these radii.
+  std::shared_ptr<SoftContact> one_contact(const ContactParameters& contact,
+                                           const std::vector<double>& radii) const {
+    return soft_contact(with_contact(contact), spheres(radii), 2, say_).common();
+  }
+
+  const Folder folder_{"soft_particles"};
+  std::vector<std::string> said_;
+  const std::function<void(const std::string&)> say_ = [this](const std::string& line) {
+    said_.push_back(line);
+  };
+};
 
 // Figure 6 of mueller2013: 0.1 m, 1140 kg/m³, 5 m/s.
 TEST_F(SoftParticles, TheUnitsAreThoseOfTheReferenceParticle) {
@@ -104,16 +92,18 @@ TEST_F(SoftParticles, TheUnitsAreThoseOfTheReferenceParticle) {
   EXPECT_NEAR(unit.mass, 1140 * 4 * std::numbers::pi / 3 * 1e-3, 1e-14);
 }
 
+constexpr std::pair<ContactParameters::Coefficients, double> coefficients_with_tolerance[] = {
+    {ContactParameters::Coefficients::integrated, 1e-11},
+    {ContactParameters::Coefficients::tabulated, 3e-8}};
+
 TEST_F(SoftParticles, ContactsAreThoseOfTheMaterialInSiUnits) {
   ContactParameters p = figure_6();
-  for (const auto coefficients :
-       {ContactParameters::Coefficients::integrated, ContactParameters::Coefficients::tabulated}) {
+  for (const auto& [coefficients, tolerance] : coefficients_with_tolerance) {
     p.coefficients = coefficients;
-    const bool exact = coefficients == ContactParameters::Coefficients::integrated;
     p.law = ContactParameters::Law::linear_dashpot;
-    expect_contact_in_si(p.linear_dashpot, p, *one_contact(p, {1, 1}), 1, exact ? 1e-11 : 3e-8);
+    expect_contact_in_si(p.linear_dashpot, p, *one_contact(p, {1, 1}), 1, tolerance);
     p.law = ContactParameters::Law::viscoelastic;
-    expect_contact_in_si(p.viscoelastic, p, *one_contact(p, {1, 1}), 1, exact ? 1e-11 : 3e-8);
+    expect_contact_in_si(p.viscoelastic, p, *one_contact(p, {1, 1}), 1, tolerance);
   }
   // Unlike radii damp differently: one variable more.
   const auto contact = one_contact(p, {1, 0.9});
@@ -157,11 +147,8 @@ TEST_F(SoftParticles, MaterialsMixAsTheirEffectiveModulus) {
   const double time = effective * (1e-3 / rubber + 1e-6 / other);
   Configuration3 both = spheres({1, 1});
   both.species = {0, 1};
-  for (const auto coefficients :
-       {ContactParameters::Coefficients::integrated, ContactParameters::Coefficients::tabulated}) {
+  for (const auto& [coefficients, tolerance] : coefficients_with_tolerance) {
     p.coefficients = coefficients;
-    const double tolerance =
-        coefficients == ContactParameters::Coefficients::integrated ? 1e-11 : 3e-8;
     const auto contacts = soft_contact(with_contact(p, {"rubber", "steel"}), both, 2, say_);
     expect_contact_in_si(p.viscoelastic, p, *contacts.of(0, 0), 1, tolerance);
     expect_contact_in_si(Viscoelastic{2e11, 0.3, 1e-6}, p, *contacts.of(1, 1), 1, tolerance);
@@ -207,7 +194,7 @@ TEST_F(SoftParticles, WithoutAFolderTheTableIsNotKept) {
   checked(setenv("XDG_CACHE_HOME", "/dev/null", 1), "setenv");
   const auto contact = one_contact(figure_6(), {1, 1});
   ASSERT_EQ(said_.size(), 2u);
-  EXPECT_THAT(said_[1], testing::HasSubstr("the table is not kept"));
+  EXPECT_THAT(said_[1], HasSubstr("the table is not kept"));
 }
 
 }  // namespace

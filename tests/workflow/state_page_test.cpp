@@ -1,23 +1,13 @@
 #include "workflow/report/state_page.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
+#include "tests/support/report_pages.h"
 
 namespace vitrel {
 namespace {
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t times = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size())
-    ++times;
-  return times;
-}
 
 StatePage example(std::size_t particles) {
   StatePage page;
@@ -41,31 +31,21 @@ StatePage example(std::size_t particles) {
   return page;
 }
 
-nlohmann::json embedded_data(const std::string& page) {
-  const std::string open = "<script type=\"application/json\" id=\"data\">";
-  const std::size_t begin = page.find(open) + open.size();
-  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-}
-
 TEST(StatePage, NeedsNothingBesideItAndIsSmall) {
   const std::string page = state_page(example(1000));
-  EXPECT_EQ(count(page, " src="), 0u);
-  EXPECT_EQ(count(page, "<link"), 0u);
+  expect_counts(page, {{" src=", 0}, {"<link", 0}});
   EXPECT_EQ(count(page, "url("), count(page, "url(#"));
   EXPECT_EQ(count(page, "{{"), 0u);
-  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  expect_parts(page, {"default-src 'none'"});
   EXPECT_LT(page.size(), 150'000u);
 }
 
 TEST(StatePage, HasARowForEveryPropertyAndKeepsTextAsText) {
   const std::string page = state_page(example(2));
-  EXPECT_NE(page.find("<h1>dense &lt;1&gt;</h1>"), std::string::npos);
-  EXPECT_NE(page.find("ellipses &amp; disks"), std::string::npos);
-  EXPECT_NE(
-      page.find("<tr><th scope=\"row\">pressure</th><td>16.6 ± 0.2</td><td>a &lt; b</td></tr>"),
-      std::string::npos);
-  EXPECT_EQ(count(page, "<tr>"), 2u);
-  EXPECT_EQ(count(page, "</script>"), 3u);
+  expect_parts(page,
+               {"<h1>dense &lt;1&gt;</h1>", "ellipses &amp; disks",
+                "<tr><th scope=\"row\">pressure</th><td>16.6 ± 0.2</td><td>a &lt; b</td></tr>"});
+  expect_counts(page, {{"<tr>", 2}, {"</script>", 3}});
 }
 
 TEST(StatePage, CarriesThePictureAndTheCurves) {
@@ -95,10 +75,10 @@ TEST(StatePage, WhatIsUnknownIsNotThere) {
 
 /// The tables of the page of the state that these parameters prepare.
 nlohmann::json tables_of_page(const std::string& name, const std::string& parameters) {
-  const testing_program::Folder folder(name);
+  const Folder folder(name);
   folder.write("p.toml", parameters);
-  EXPECT_EQ(testing_program::run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "-q"}).code, 0);
-  EXPECT_EQ(testing_program::run(folder.path(), {"report", "s.h5", "-q"}).code, 0);
+  folder.succeed("prepare p.toml -o s.h5 -q");
+  folder.succeed("report s.h5 -q");
   return embedded_data(folder.read("s.html"))["tables"];
 }
 

@@ -1,28 +1,18 @@
 // Sweeps whose steps are done by a script in place of the program.
 #include "workflow/sweep/sweep.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "core/error.h"
-#include "tests/app/program.h"
+#include "tests/app/end_to_end.h"
 #include "workflow/sweep/job_folder.h"
 #include "workflow/sweep/seed_averages.h"
 #include "workflow/sweep/sweep_status.h"
 
 namespace vitrel {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing_program::Folder;
-namespace fs = std::filesystem;
 
 const std::string three_seeds =
     "[dynamics]\nduration = 10\n[sweep.grid]\n\"system.seed\" = [1, 2, 3]\n";
