@@ -67,8 +67,7 @@ Handle text_type(const Check& check, std::size_t width) {
 Handle::~Handle() {
   if (id_ <= 0) return;  // none, or HDF5's default
   silence_hdf5();
-  // A file that was closed has closed its objects, too, and their identifiers are not valid. If closing an object fails
-  // here, it is closed with its file.
+  // The identifiers of a closed file are not valid. An object that cannot be closed here is closed with its file.
   if (H5Iis_valid(id_) > 0) static_cast<void>(H5Idec_ref(id_));
 }
 

@@ -105,10 +105,7 @@ function drawErrors(plot, chart, k) {
   });
 }
 
-/**
- * Sentences that say why curves end before others or lack errors; empty if no curve that should have errors lacks
- * them.
- */
+/** Sentences that say why curves end before others or lack errors that they should have; empty if none does. */
 function missingNumbers(curves) {
   const measured = curves.filter((curve) => curve.noErrors), cut = measured.filter(({ isCut }) => isCut);
   const bare = measured.filter((curve) => curve.value.some((value, i) => value !== null && (curve.error?.[i] ?? null) === null));
@@ -173,10 +170,7 @@ function drawUpright(plot, { value, error, open, colour, label }, row) {
   });
 }
 
-/**
- * Draws a short dashed line of this slope: 1 (diffusion) in the lower right corner, 2 (free flight) in the upper left
- * one.
- */
+/** Draws a short dashed line of slope 1 (diffusion) in the lower right corner, or 2 (free flight) in the upper left. */
 function drawSlope(plot, slope) {
   const ratio = devicePixelRatio;
   insideFrame(plot, (ctx, { left, top, width, height }) => {
@@ -354,10 +348,7 @@ class Chart {
     return this.variant.curves.filter((curve, k, all) => all.findIndex(({ id }) => id === curve.id) === k);
   }
 
-  /**
-   * The places where a saved chart names its visible curves, in rows below the plot: [{curve, x, y}]. A single curve
-   * needs no name.
-   */
+  /** Where a saved chart names its visible curves if there are several, in rows below the plot: [{curve, x, y}]. */
   legendPlaces() {
     const shown = this.namedCurves().filter(({ id }) => !this.hidden.has(id));
     const context = document.createElement('canvas').getContext('2d'), { width } = this.size();
