@@ -32,7 +32,7 @@ TEST(BrownianStep, IsWarnedOfWhereItIsLong) {
   EXPECT_THAT(long_step_text(0.3, typical_time(particles(1))), HasSubstr("flies 0.3 of its size"));
   EXPECT_THAT(long_step_text(0.3, typical_time(particles(2))), IsEmpty());
   EXPECT_THAT(long_step_text(0.03, typical_time(particles(0.3))),
-              HasSubstr("0.009 is right within 4 %"));
+              HasSubstr("0.009 is right within 3 %"));
 }
 
 }  // namespace

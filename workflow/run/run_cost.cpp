@@ -82,8 +82,8 @@ std::string long_step_text(double brownian_step, double typical_time) {
   if (sizes <= too_long) return "";
   return fmt::format(
       "in dynamics.brownian_step = {:g} a typical particle flies {:.2g} of its size: relaxation "
-      "takes longer than that of Brownian particles, by 12 to 18 % at 0.3 and twice as long at 1; "
-      "{:.1g} is right within 4 %",
+      "takes longer than that of Brownian particles, by 7 to 17 % at 0.3 and 70 to 100 % at 1; "
+      "{:.1g} is right within 3 %",
       brownian_step, sizes, right * typical_time);
 }
 
