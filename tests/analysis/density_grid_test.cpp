@@ -146,7 +146,8 @@ double expect_one_of_each(const Vec<Dim>& lengths, double from, double to) {
 // in an annulus is off by no more than the length of its edges. In space 4π (q_max³ − q_min³)/3 ·
 // V/(2π)³; off by no more than half a cell of reciprocal space along the surfaces.
 TEST(DensityGrid, ListsOneOfEachTwoOppositeWaveVectors) {
-  for (const WaveVector<2>& q : DensityGrid<2>({50, 40}, 2, 5).wave_vectors())
+  const DensityGrid<2> grid({50, 40}, 2, 5);
+  for (const WaveVector<2>& q : grid.wave_vectors())
     EXPECT_TRUE(q.n[1] > 0 || (q.n[1] == 0 && q.n[0] > 0));
   const double area = 50 * 40 / (4 * pi * pi), volume = 14 * 10 * 12 / std::pow(2 * pi, 3);
   EXPECT_NEAR(expect_one_of_each<2>({50, 40}, 2, 5), 0.5 * pi * (25 - 4) * area,
