@@ -32,7 +32,6 @@ TARGETS = {
     "python": "calls of the Python package",
 }
 PARTS = tuple(TARGETS)  # each keeps its commit among the data of the pages; the table shows all that were measured
-COMMITS = ROOT / "docs/data/damaged_files"
 KEPT = ROOT / "build/fuzz"  # files that were read badly
 ENVIRONMENT = os.environ | {"UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1", "VITREL_RANDOM_CALLS": str(CALLS),
                             "ASAN_OPTIONS": "detect_leaks=0:malloc_context_size=0:quarantine_size_mb=16"}
@@ -62,12 +61,12 @@ def measure_target(program, target, pool):
     if target == "python":
         commands = [["ctest", "--test-dir", ROOT / "build/asan", "--output-on-failure", "-R", r"^python\."]]
     list(pool.map(expect_success, commands))
-    COMMITS.mkdir(parents=True, exist_ok=True)
+    commit_file(target).parent.mkdir(parents=True, exist_ok=True)
     commit_file(target).write_text(output_of(["git", "-C", ROOT, "rev-parse", "--short=8", "HEAD"]).strip(), encoding="utf-8")
 
 
 def commit_file(target):
-    return COMMITS / f"{target}.commit"
+    return ROOT / f"docs/data/damaged_files/{target}.commit"
 
 
 def row(target):
