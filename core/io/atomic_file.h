@@ -8,8 +8,8 @@
 /// made itself, so the partial files of a killed process stay.
 namespace vitrel {
 
-/// Makes an empty file, or a folder, with a name of the form `<path>.<random>.partial`, and follows no link. Throws
-/// FileError.
+/// Makes an empty file, or a folder, whose name is the path with a random part and `.partial`. It follows no link.
+/// Throws FileError.
 std::filesystem::path make_partial_file(const std::filesystem::path& path);
 std::filesystem::path make_partial_folder(const std::filesystem::path& path);
 
